@@ -1,0 +1,76 @@
+"""`FrameData`: the only value that crosses from the ECS to the GPU.
+
+Plain arrays, made once a frame by the extract system, read-only, with no entity ids and no
+OpenGL names in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+AREA_DTYPE = np.dtype(
+    [
+        ("key", "i8"),  # stable for the life of the area; only ever compared
+        ("center", "f8", 2),  # (x, z), m
+        ("radii", "f8", 2),  # (a, b), m, a >= b > 0
+        ("heading", "f8"),  # rad, counter-clockwise seen from above
+        ("rain_rate", "f8"),  # mm/h
+        ("soft_edge", "f8"),  # m, inside the ellipse
+        ("ceiling", "f8"),  # m, world height
+    ]
+)
+
+LIGHT_DTYPE = np.dtype(
+    [
+        ("position", "f8", 3),  # m
+        ("color", "f8", 3),  # linear RGB times strength
+        ("reach", "f8"),  # m, the distance at which it has faded to nothing
+    ]
+)
+
+
+def empty(dtype: np.dtype) -> NDArray:
+    array = np.zeros(0, dtype)
+    array.setflags(write=False)
+    return array
+
+
+@dataclass(frozen=True, slots=True)
+class SkyLight:
+    """Light of sun, sky and ground, linear RGB."""
+
+    sun_direction: tuple[float, float, float] = (0.35, 0.8, 0.48)  # unit, towards the sun
+    sun_color: tuple[float, float, float] = (1.0, 0.95, 0.86)
+    zenith_color: tuple[float, float, float] = (0.36, 0.47, 0.62)
+    horizon_color: tuple[float, float, float] = (0.68, 0.73, 0.78)
+    ground_color: tuple[float, float, float] = (0.20, 0.20, 0.17)
+
+
+@dataclass(frozen=True, slots=True)
+class DropLook:
+    """Looks of the drops of a container; see `components.RainContainer`."""
+
+    reach: float = 40.0  # m, semi-axis of the near container
+    height: float = 24.0  # m, of the near container
+    margin: float = 1.5  # m, observer's movement that leaves the container where it is
+    size_maximum: float = 4.0  # Eq. 3's factor at the container's rim
+    exposure: float = 1.0 / 40.0  # s, length of the path a streak shows
+    width: float = 1.0  # factor on the drop's diameter, look only
+    opacity: float = 0.55  # greatest opacity of one streak
+    veil: float = 1.0  # factor on the veil's extinction, look only
+
+
+@dataclass(frozen=True, slots=True)
+class FrameData:
+    """One frame's weather, world axes, SI units unless a field says otherwise."""
+
+    time: float = 0.0  # s, the weather's clock, remainder included
+    step: int = 0  # fixed steps done
+    areas: NDArray = field(default_factory=lambda: empty(AREA_DTYPE))
+    lights: NDArray = field(default_factory=lambda: empty(LIGHT_DTYPE))
+    wind: tuple[float, float, float] = (0.0, 0.0, 0.0)  # m/s
+    sky: SkyLight = field(default_factory=SkyLight)
+    look: DropLook = field(default_factory=DropLook)
