@@ -14,11 +14,12 @@ import platform
 import shutil
 import subprocess
 import sys
+from importlib import invalidate_caches
 from importlib.util import find_spec
 
 PACKAGES = {
     # Debian ships Python without the module that puts pip into a virtual environment.
-    "venv": ["python{0}.{1}-venv".format(*sys.version_info)],
+    "venv": [f"python{sys.version_info.major}.{sys.version_info.minor}-venv"],
     "opengl": [
         "libegl1",
         "libgl1",
@@ -48,6 +49,7 @@ except Exception:
 
 
 def has_venv() -> bool:
+    invalidate_caches()
     return find_spec("ensurepip") is not None
 
 
