@@ -1,0 +1,1 @@
+"""The GPU side: context, state guard, shaders, buffers, passes. The only importer of moderngl."""
