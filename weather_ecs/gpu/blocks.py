@@ -1,0 +1,198 @@
+"""Uniform blocks, declared once in Python: std140 layout for numpy and the GLSL text from one list.
+
+    RAIN_VIEW = UniformBlock("RainView", ("view_projection", "mat4"), ("areas", "vec4", 8))
+
+Shaders take the text with `#include <block:RainView>`; members are global names there. Bindings go
+from the top of GL_MAX_UNIFORM_BUFFER_BINDINGS downwards, because hosts count theirs from 0 up.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.errors import ContextError, InvalidValueError
+
+# GLSL type: numpy scalar, components, std140 alignment in bytes
+TYPES: dict[str, tuple[str, int, int]] = {
+    "float": ("<f4", 1, 4),
+    "int": ("<i4", 1, 4),
+    "uint": ("<u4", 1, 4),
+    **{
+        f"{p}vec{n}": (s, n, 8 if n == 2 else 16)
+        for p, s in (("", "<f4"), ("i", "<i4"), ("u", "<u4"))
+        for n in (2, 3, 4)
+    },
+    "mat4": ("<f4", 16, 16),
+}
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z")
+BLOCKS: dict[str, UniformBlock] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """One member with its place in the block."""
+
+    name: str
+    type: str
+    count: int  # 0: not an array
+    offset: int  # bytes
+    stride: int  # bytes between elements of an array
+
+    @property
+    def glsl(self) -> str:
+        return f"{self.type} {self.name}" + (f"[{self.count}]" if self.count else "")
+
+
+class UniformBlock:
+    """Layout of a uniform block.
+
+    fields: (name, type) or (name, type, length of the array).
+    dtype: numpy structure with std140 offsets. In it a mat4 is (4, 4), one row per GLSL column, and
+    arrays of what is narrower than a vec4 are (count, 4); `BlockBuffer` gives plain views of both.
+    """
+
+    def __init__(self, name: str, *fields: tuple[Any, ...], register: bool = True) -> None:
+        if not NAME.match(name):
+            raise InvalidValueError("block name", name, "letters, digits, underscores")
+        self.name = name
+        self.fields, self.size = lay_out(name, fields)
+        self.dtype = np.dtype(
+            {
+                "names": [field.name for field in self.fields],
+                "formats": [numpy_format(field) for field in self.fields],
+                "offsets": [field.offset for field in self.fields],
+                "itemsize": self.size,
+            }
+        )
+        self.slot = -1
+        if register:
+            known = BLOCKS.get(name)
+            if known is not None and known.fields != self.fields:
+                raise InvalidValueError("block name", name, "a name not yet declared otherwise")
+            self.slot = known.slot if known is not None else len(BLOCKS)
+            BLOCKS[name] = self
+
+    @property
+    def glsl(self) -> str:
+        members = "".join(f"    {field.glsl};\n" for field in self.fields)
+        return f"layout(std140) uniform {self.name}\n{{\n{members}}};\n"
+
+    def binding(self, ctx: moderngl.Context) -> int:
+        """The block's uniform-buffer binding in `ctx`."""
+        if self.slot < 0:
+            raise InvalidValueError("block", self.name, "a registered block")
+        index = top_binding(ctx) - self.slot
+        if index < 0:
+            raise ContextError(f"no uniform-buffer binding is left for block {self.name}")
+        return index
+
+
+def lay_out(block: str, fields: tuple[tuple[Any, ...], ...]) -> tuple[tuple[Field, ...], int]:
+    """Fields with their std140 offsets, and the block's size in bytes (OpenGL 3.3, 2.11.4)."""
+    if not fields:
+        raise InvalidValueError(f"block {block}", fields, "at least one field")
+    placed: list[Field] = []
+    end = 0
+    for name, kind, *length in fields:
+        count = length[0] if length else 0
+        if not NAME.match(name) or any(name == field.name for field in placed):
+            raise InvalidValueError(f"field of block {block}", name, "a name used once")
+        if kind not in TYPES:
+            raise InvalidValueError(f"type of {block}.{name}", kind, ", ".join(TYPES))
+        if length and count < 1:
+            raise InvalidValueError(f"length of {block}.{name}", count, "1 or more")
+        _, components, align = TYPES[kind]
+        size = components * 4
+        if count:
+            align = 16
+            stride = -(-size // 16) * 16
+            size = stride * count
+        else:
+            stride = 0
+        offset = -(-end // align) * align
+        placed.append(Field(name, kind, count, offset, stride))
+        end = offset + size
+    return tuple(placed), -(-end // 16) * 16
+
+
+def numpy_format(field: Field) -> Any:
+    scalar, components, _ = TYPES[field.type]
+    shape: tuple[int, ...] = (4, 4) if components == 16 else (components,)
+    if field.count:
+        shape = (field.count, 4, 4) if components == 16 else (field.count, 4)
+    return scalar if shape == (1,) else (scalar, shape)
+
+
+def top_binding(ctx: moderngl.Context) -> int:
+    """The highest uniform-buffer binding of `ctx`."""
+    return int(ctx.info["GL_MAX_UNIFORM_BUFFER_BINDINGS"]) - 1
+
+
+def slot_count() -> int:
+    """How many bindings from the top the declared blocks take."""
+    return len(BLOCKS)
+
+
+def assign_bindings(ctx: moderngl.Context, program: moderngl.Program) -> None:
+    """Point the uniform blocks of `program` that are declared here at their bindings."""
+    for name in program:
+        member = program[name]
+        if isinstance(member, moderngl.UniformBlock) and name in BLOCKS:
+            member.binding = BLOCKS[name].binding(ctx)
+
+
+class BlockBuffer:
+    """A uniform buffer and the record it is filled from.
+
+    `data`: the whole record (a 0-d structured array), to assign to by field name.
+    `buffer["name"] = value`: the same through plain views: arrays in their own shape, a mat4 as the
+    matrix M that is used as M @ column vector. Nothing reaches the GPU before `upload`.
+    """
+
+    def __init__(
+        self, ctx: moderngl.Context, block: UniformBlock, binding: int | None = None
+    ) -> None:
+        self.block = block
+        self.binding = block.binding(ctx) if binding is None else binding
+        self._bytes: NDArray[np.uint8] = np.zeros(block.size, np.uint8)
+        self.data: NDArray[Any] = self._bytes.view(block.dtype).reshape(())
+        self.views = {field.name: self._view(field) for field in block.fields}
+        self._buffer: moderngl.Buffer | None = ctx.buffer(reserve=block.size, dynamic=True)
+
+    def _view(self, field: Field) -> NDArray[Any]:
+        _, components, _ = TYPES[field.type]
+        view: NDArray[Any] = self.data[field.name]
+        if components == 16:
+            return view.swapaxes(-1, -2)
+        if field.count:
+            view = view[:, :components]
+            return view[:, 0] if components == 1 else view
+        return view
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        self.views[name][...] = value
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self.views[name]
+
+    def upload(self) -> None:
+        """Replace the buffer's contents; what is still being drawn keeps the old ones."""
+        if self._buffer is not None:
+            self._buffer.orphan()
+            self._buffer.write(self._bytes)
+
+    def bind(self) -> None:
+        if self._buffer is not None:
+            self._buffer.bind_to_uniform_block(self.binding)
+
+    def release(self) -> None:
+        """Give the buffer back; twice does no harm."""
+        if self._buffer is not None:
+            self._buffer.release()
+            self._buffer = None
