@@ -83,3 +83,12 @@ def test_host_draws_over_the_rain_as_without_it(host: Any, scene: str, backend: 
 def test_window_life(screen: Display, case: str) -> None:
     printed = screen.python(TESTS / "window_life.py", case)
     assert printed == "", "the plug-in does not print"
+
+
+def test_example_of_the_readme_rains(screen: Display, tmp_path: Path) -> None:
+    out = tmp_path / "readme.npz"
+    assert screen.python(TESTS / "window_readme.py", out) == ""
+    with np.load(out) as data:
+        before, after = data["before"], data["after"]
+    assert before.shape == (720, 1280, 4)
+    assert (before != after).any(axis=2).mean() > 0.02
