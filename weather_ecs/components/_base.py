@@ -37,7 +37,12 @@ class Component:
         check = self.checks.get(name)
         if check is None:
             raise AttributeError(f"{type(self).__name__} has no field {name!r}")
-        _set(self, name, check(f"{type(self).__name__}.{name}", value))
+        try:
+            value = check(name, value)
+        except InvalidValueError as error:
+            field = f"{type(self).__name__}.{name}"
+            raise InvalidValueError(field, error.value, error.allowed) from None
+        _set(self, name, value)
         self._revision[0] += 1
 
     def __delattr__(self, name: str) -> None:
@@ -123,7 +128,7 @@ def vector(size: int, low: float, high: float) -> Check:
     return check
 
 
-def direction(size: int) -> Check:
+def unit_vector(size: int) -> Check:
     """A check for a direction: any vector but zero, brought to length 1."""
     allowed = f"{size} finite numbers, not all zero"
 
@@ -159,8 +164,9 @@ def integer(low: int, high: int) -> Check:
     def check(field: str, value: Any) -> int:
         if isinstance(value, bool) or not isinstance(value, numbers.Integral):
             raise InvalidValueError(field, value, allowed)
-        if not low <= value <= high:
+        result = int(value)
+        if not low <= result <= high:
             raise InvalidValueError(field, value, allowed)
-        return int(value)
+        return result
 
     return check

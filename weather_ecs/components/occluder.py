@@ -39,7 +39,7 @@ def _indices(name: str, value: Any, vertex_count: int) -> NDArray[np.uint32]:
         array = np.asarray(value)
         if array.dtype.kind not in "iu" or array.ndim not in (1, 2) or array.size == 0:
             raise ValueError
-        if array.ndim == 2 and array.shape[1] != 3 or array.size % 3:
+        if array.size % 3 or (array.ndim == 2 and array.shape[1] != 3):
             raise ValueError
         if int(array.min()) < 0 or int(array.max()) >= vertex_count:
             raise ValueError
@@ -82,8 +82,9 @@ class Occluder(Component):
     kept read-only; `set_mesh` replaces both arrays together.
     """
 
-    vertices: NDArray[np.float32] | None = None  # (n, 3), m, the mesh's own axes
-    indices: NDArray[np.uint32] | None = None  # (3 t,), triangles
+    # (n, 3), m, the mesh's own axes; triangles are three indices each, (3 t,)
+    vertices: NDArray[np.float32] | None = field(default=None, repr=False)
+    indices: NDArray[np.uint32] | None = field(default=None, repr=False)
     transform: NDArray[np.float64] | None = None  # (4, 4), mesh to world, column vectors
     dynamic: bool = False  # moves often: kept out of the cached layer
     layers: int = 1  # bit mask, 1 to 2**32 - 1; what rain on other layers ignores
@@ -96,10 +97,11 @@ class Occluder(Component):
     }
 
     def __post_init__(self) -> None:
+        allowed = "both vertices and indices, or draw alone"
         if self.draw is None and (self.vertices is None or self.indices is None):
-            raise InvalidValueError("Occluder", None, "vertices and indices, or draw")
+            raise InvalidValueError("Occluder", None, allowed)
         if self.draw is not None and (self.vertices is not None or self.indices is not None):
-            raise InvalidValueError("Occluder", self.draw, "vertices and indices, or draw: not both")
+            raise InvalidValueError("Occluder", self.draw, allowed)
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name in self.checks:
@@ -111,8 +113,8 @@ class Occluder(Component):
         elif name == "indices":
             value = self._checked_indices(value, complete)
         elif name == "draw":
-            meshless = not complete or self.vertices is None
-            if not (callable(value) and meshless or value is None and not complete):
+            possible = callable(value) if complete else value is None or callable(value)
+            if not possible or (complete and self.vertices is not None):
                 raise InvalidValueError("Occluder.draw", value, "a function, where no mesh is set")
         else:
             raise AttributeError(f"Occluder has no field {name!r}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from weather_ecs.components._base import Check, Component, direction, vector
+from weather_ecs.components._base import Check, Component, unit_vector, vector
 
 Color = tuple[float, float, float]
 
@@ -21,7 +21,7 @@ class Sun(Component):
     ground_color: Color = (0.20, 0.20, 0.17)  # that the ground sends back
 
     checks: ClassVar[dict[str, Check]] = {
-        "direction": direction(3),
+        "direction": unit_vector(3),
         "color": vector(3, 0.0, 1000.0),
         "zenith_color": vector(3, 0.0, 1000.0),
         "horizon_color": vector(3, 0.0, 1000.0),

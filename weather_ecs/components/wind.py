@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from weather_ecs.components._base import Check, Component, direction, number
+from weather_ecs.components._base import Check, Component, number, unit_vector
 
 
 @dataclass(eq=False, slots=True)
@@ -16,6 +16,6 @@ class Wind(Component):
     speed: float = 0.0  # m/s, 0 to 150
 
     checks: ClassVar[dict[str, Check]] = {
-        "direction": direction(2),
+        "direction": unit_vector(2),
         "speed": number(0.0, 150.0),
     }

@@ -1,0 +1,33 @@
+"""Weather for Python games: rain areas to walk into and out of, on esper, pyglet and moderngl.
+
+Importing the package touches no OpenGL.
+"""
+
+from __future__ import annotations
+
+from weather_ecs.errors import (
+    ClosedError,
+    ContextError,
+    InvalidValueError,
+    ShaderError,
+    SnapshotError,
+    WeatherError,
+)
+from weather_ecs.sampling import Sample
+from weather_ecs.stats import Stats
+from weather_ecs.weather import Weather
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "ClosedError",
+    "ContextError",
+    "InvalidValueError",
+    "Sample",
+    "ShaderError",
+    "SnapshotError",
+    "Stats",
+    "Weather",
+    "WeatherError",
+    "__version__",
+]

@@ -1,0 +1,134 @@
+"""Quality: what the weather may cost. Looks are components' affair, never quality's."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass, replace
+from statistics import median
+
+from weather_ecs.errors import InvalidValueError
+
+QUALITIES = ("low", "medium", "high", "ultra", "auto")
+LOWEST_BUDGET = 0.05  # of the greatest quality: 6000 drops, as many as low has
+_FIRST_BUDGET = 14_000 / 120_000  # auto starts as medium
+
+
+@dataclass(frozen=True, slots=True)
+class QualitySettings:
+    """What one draw may use. Buffers are made for `drops`; a frame moves and draws a share."""
+
+    name: str
+    drops: int  # for one observer
+    containers: int  # areas whose drops are drawn for one observer; the rest are veils
+    heightmap_size: int  # texels on a side of the map of what the rain hits
+    veil: bool  # rain beyond the containers
+    step_limit: int  # fixed steps that one draw may simulate
+    budget: float = 1.0  # share of the drops that is used, 0.05 to 1
+
+    @property
+    def active_drops(self) -> int:
+        """Drops to move and draw in this frame."""
+        return max(1, round(self.drops * self.budget))
+
+
+LEVELS: dict[str, QualitySettings] = {
+    "low": QualitySettings("low", 6_000, 2, 256, True, 2),
+    "medium": QualitySettings("medium", 14_000, 4, 512, True, 4),
+    "high": QualitySettings("high", 40_000, 8, 1024, True, 4),
+    "ultra": QualitySettings("ultra", 120_000, 16, 2048, True, 8),
+    # Everything that would be seen to jump is fixed; the share of the drops glides.
+    "auto": QualitySettings("auto", 120_000, 8, 512, True, 4, _FIRST_BUDGET),
+}
+
+
+def settings_for(name: object) -> QualitySettings:
+    """The settings of a level. Raises InvalidValueError for a name that is none."""
+    if not isinstance(name, str) or name not in LEVELS:
+        raise InvalidValueError("quality", name, ", ".join(QUALITIES))
+    return LEVELS[name]
+
+
+class AutoQuality:
+    """Steers the share of the drops so that the game keeps its frame time.
+
+    A pure function of what it is fed. It reckons with the cost of one unit of budget and with
+    the time the rest of the game takes, both as medians over a window: unlike the frame time
+    itself, these do not change when the budget does, so that no lag can make it swing. The budget
+    moves by at most 2 % a frame, and not at all while it is within a tenth of where it should be.
+    """
+
+    RATE = 0.02  # greatest change in a frame
+    WINDOW = 31  # frames
+    DEAD_BAND = 0.10  # share of the budget
+    TOLERANCE = 0.05  # share of the target: a frame that long is still on time
+    WORTH = 0.10  # share of the frame below which reducing the weather would help nobody
+    SHARE = 0.30  # share of the target the weather may take where the display sets the pace
+    LONGEST = 1000.0  # ms; a longer frame was a pause
+    PATIENCE = 600  # frames before a budget that was too much is tried again
+
+    def __init__(self, target: float = 1000.0 / 60.0, budget: float = _FIRST_BUDGET) -> None:
+        if not (isinstance(target, (int, float)) and 1.0 <= target <= 1000.0):
+            raise InvalidValueError("target", target, "1 to 1000 ms")
+        self.target = float(target)
+        self.budget = min(max(float(budget), LOWEST_BUDGET), 1.0)
+        self._frames: deque[float] = deque(maxlen=self.WINDOW)  # ms
+        self._costs: deque[float] = deque(maxlen=self.WINDOW)  # ms of weather at budget 1
+        self._others: deque[float] = deque(maxlen=self.WINDOW)  # ms of all but the weather
+        self._ceiling = 1.0  # budget known to be too much
+        self._blocked = 0  # frames until the ceiling is tried again
+        self._patience = self.PATIENCE
+
+    def settings(self) -> QualitySettings:
+        """What the next draw may use."""
+        return replace(LEVELS["auto"], budget=self.budget)
+
+    def feed(self, frame_ms: float, gpu_ms: float, cpu_ms: float) -> float:
+        """Learn what the last frame took, all and the weather's part; returns the budget.
+
+        A frame that says nothing (no or an absurd duration, a pause, no weather) changes nothing.
+        """
+        weather = gpu_ms + cpu_ms
+        sane = 0.0 < frame_ms <= self.LONGEST and 0.0 < weather <= self.LONGEST
+        if not sane or gpu_ms < 0.0 or cpu_ms < 0.0:  # NaN fails the comparisons of `sane`
+            return self.budget
+        self._frames.append(frame_ms)
+        self._costs.append(weather / self.budget)
+        self._others.append(max(frame_ms - weather, 0.0))
+        if len(self._frames) == self.WINDOW:
+            self._steer()
+        return self.budget
+
+    def _steer(self) -> None:
+        """Move the budget towards the one that fits."""
+        cost, other = median(self._costs), median(self._others)
+        frame = median(self._frames)
+        late = frame > self.target * (1.0 + self.TOLERANCE)
+        if self._blocked:
+            self._blocked -= 1
+            if not self._blocked:
+                self._ceiling = 1.0
+        room = self.target - other
+        if late:
+            if cost * self.budget < self.WORTH * frame:
+                return
+            self._remember_ceiling()
+            wanted = max(room, 0.5 * self.WORTH * self.target) / cost
+            wanted = min(wanted, self.budget)
+        else:
+            # With vertical sync the display's wait hides in `other`, and `room` says nothing.
+            wanted = max(room, self.SHARE * self.target) / cost
+            wanted = min(wanted, self._ceiling)
+        wanted = min(max(wanted, LOWEST_BUDGET), 1.0)
+        if math.isclose(wanted, self.budget, rel_tol=self.DEAD_BAND) and not late:
+            return
+        step = min(max(wanted / self.budget, 1.0 - self.RATE), 1.0 + self.RATE)
+        self.budget = min(max(self.budget * step, LOWEST_BUDGET), 1.0)
+
+    def _remember_ceiling(self) -> None:
+        """This budget was too much: stay below it for a while, longer each time."""
+        if not self._blocked:
+            self._blocked = self._patience
+            self._patience = min(2 * self._patience, 64 * self.PATIENCE)
+            self._ceiling = 1.0
+        self._ceiling = min(self._ceiling, 0.9 * self.budget)

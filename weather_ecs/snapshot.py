@@ -1,0 +1,227 @@
+"""Snapshots: the whole deterministic state of a weather in a few kilobytes, and back.
+
+A header (magic, format version, length and CRC-32 of what follows) and zlib-compressed canonical
+JSON: sorted keys, no spaces, floats with as many digits as give them back to the bit. There is no
+code in it, and nothing in it is trusted.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+import zlib
+from dataclasses import fields
+from typing import Any, NamedTuple
+
+import esper
+import numpy as np
+
+from weather_ecs.clock import Clock
+from weather_ecs.components import SNAPSHOT_COMPONENTS
+from weather_ecs.components._base import Component
+from weather_ecs.errors import InvalidValueError, SnapshotError
+from weather_ecs.systems.state import WeatherState
+
+MAGIC = b"WECS"
+VERSION = 1
+LARGEST = 32 * 1024 * 1024  # bytes of JSON; a bomb stops there
+MOST_UIDS = 2**53
+
+_HEADER = struct.Struct("<4sHII")  # magic, version, length of the JSON, CRC-32 of the rest
+_NAMES = {
+    name: tuple(sorted(field.name for field in fields(kind)))  # type: ignore[arg-type]
+    for name, kind in SNAPSHOT_COMPONENTS.items()
+}
+_PARTS = {"clock", "entities", "next_uid", "rng", "seed"}
+
+
+class Entity(NamedTuple):
+    """One entity of a snapshot, its components built and checked."""
+
+    uid: int
+    components: dict[type[Component], Component]
+
+
+class Loaded(NamedTuple):
+    """A snapshot that has been read and checked from end to end."""
+
+    seed: int
+    rng: np.random.Generator
+    clock: Clock
+    next_uid: int
+    entities: list[Entity]
+
+
+def encode(document: dict[str, Any]) -> bytes:
+    """Bytes of a JSON document. Raises ValueError for NaN and infinity."""
+    text = json.dumps(document, sort_keys=True, separators=(",", ":"), allow_nan=False).encode()
+    packed = zlib.compress(text, 6)
+    return _HEADER.pack(MAGIC, VERSION, len(text), _checksum(len(text), packed)) + packed
+
+
+def decode(data: bytes) -> dict[str, Any]:
+    """The JSON document of `encode`. Raises SnapshotError for anything else."""
+    if not isinstance(data, (bytes, bytearray, memoryview)):
+        raise SnapshotError(f"a snapshot is bytes, not {type(data).__name__}")
+    data = bytes(data)
+    if data[:4] != MAGIC[: len(data[:4])] or len(data) < 4:
+        raise SnapshotError("these bytes are not a weather snapshot")
+    if len(data) < _HEADER.size:
+        raise SnapshotError("the snapshot is cut off in its header")
+    _, version, length, checksum = _HEADER.unpack_from(data)
+    packed = data[_HEADER.size :]
+    if version != VERSION:
+        raise SnapshotError(f"the snapshot has format version {version}, this is {VERSION}")
+    if length > LARGEST:
+        raise SnapshotError(f"the snapshot claims {length} bytes, allowed are {LARGEST}")
+    if _checksum(length, packed) != checksum:
+        raise SnapshotError("the snapshot is damaged or cut off: its checksum does not fit")
+    try:
+        stream = zlib.decompressobj()
+        text = stream.decompress(packed, length + 1)
+    except zlib.error as error:
+        raise SnapshotError(f"the snapshot cannot be decompressed: {error}") from None
+    if len(text) != length or not stream.eof or stream.unused_data:
+        raise SnapshotError("the snapshot's content has another length than it claims")
+    try:
+        document = json.loads(text, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError) as error:
+        raise SnapshotError(f"the snapshot's content is not valid JSON: {error}") from None
+    if not isinstance(document, dict):
+        raise SnapshotError("the snapshot's content is not an object")
+    return document
+
+
+def capture(state: WeatherState) -> dict[str, Any]:
+    """The state and the components of esper's current world as a JSON document."""
+    state.uids.commit()
+    entities: dict[int, dict[str, Any]] = {}
+    for name, kind in SNAPSHOT_COMPONENTS.items():
+        for entity, component in esper.get_component(kind):
+            if esper.entity_exists(entity):
+                uid = state.uids.by_entity[entity]
+                entities.setdefault(uid, {})[name] = {
+                    field: getattr(component, field) for field in _NAMES[name]
+                }
+    return {
+        "clock": state.clock.state(),
+        "entities": [[uid, entities[uid]] for uid in sorted(entities)],
+        "next_uid": state.uids.next,
+        "rng": state.rng.bit_generator.state,
+        "seed": state.seed,
+    }
+
+
+def load(document: dict[str, Any]) -> Loaded:
+    """Read and check a document; touches nothing. Raises SnapshotError."""
+    try:
+        return _load(document)
+    except InvalidValueError as error:
+        raise SnapshotError(f"the snapshot holds a bad value: {error}") from None
+
+
+def _load(document: dict[str, Any]) -> Loaded:
+    if set(document) != _PARTS:
+        raise SnapshotError(f"the snapshot's parts are {sorted(document)}, not {sorted(_PARTS)}")
+    next_uid = _integer("next_uid", document["next_uid"], MOST_UIDS)
+    entities: list[Entity] = []
+    if not isinstance(document["entities"], list):
+        raise SnapshotError("the snapshot's entities are not a list")
+    for entry in document["entities"]:
+        if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[1], dict)):
+            raise SnapshotError("the snapshot holds an entity without number and components")
+        uid = _integer("uid", entry[0], next_uid - 1)
+        if entities and uid <= entities[-1].uid:
+            raise SnapshotError("the snapshot's entities are not in order")
+        if not entry[1]:
+            raise SnapshotError(f"the snapshot's entity {uid} has no components")
+        built = [_component(name, values) for name, values in entry[1].items()]
+        entities.append(Entity(uid, {type(component): component for component in built}))
+    return Loaded(
+        seed=_integer("seed", document["seed"], 2**63 - 1),
+        rng=_generator(document["rng"]),
+        clock=Clock.from_state(document["clock"]),
+        next_uid=next_uid,
+        entities=entities,
+    )
+
+
+def apply(state: WeatherState, loaded: Loaded) -> None:
+    """Make esper's current world and the state what the snapshot says; nothing here can fail.
+
+    Entities that live under the same uid keep their components, whose fields are set; others are
+    created. Weather components that the snapshot does not know go, and with its last component
+    the entity. Everything else in the world belongs to the game and stays.
+    """
+    current = state.uids.current()
+    exists = esper.entity_exists
+    by_uid = {uid: entity for entity, uid in current.items() if exists(entity)}
+    wanted = {entity.uid: entity.components for entity in loaded.entities}
+    for uid, entity in by_uid.items():
+        keep = wanted.get(uid, {})
+        for kind in SNAPSHOT_COMPONENTS.values():
+            if kind not in keep and esper.has_component(entity, kind):
+                esper.remove_component(entity, kind)
+        if not keep and not esper.components_for_entity(entity):
+            esper.delete_entity(entity, immediate=True)
+    assigned: dict[int, int] = {}
+    for uid, components in wanted.items():
+        known = by_uid.get(uid)
+        if known is None:
+            known = esper.create_entity()
+        for kind, component in components.items():
+            present = esper.try_component(known, kind)
+            if present is None:
+                esper.add_component(known, component)
+            else:
+                for name in _NAMES[kind.__name__]:
+                    setattr(present, name, getattr(component, name))
+        assigned[known] = uid
+    state.seed = loaded.seed
+    state.rng = loaded.rng
+    state.clock = loaded.clock
+    state.uids.assign(assigned, loaded.next_uid)
+
+
+def _component(name: str, values: Any) -> Component:
+    kind = SNAPSHOT_COMPONENTS.get(name)
+    if kind is None:
+        raise SnapshotError(f"the snapshot holds a component {name!r} that is unknown here")
+    if not isinstance(values, dict) or tuple(sorted(values)) != _NAMES[name]:
+        raise SnapshotError(f"the snapshot's {name} has other fields than {_NAMES[name]}")
+    return kind(**values)
+
+
+def _generator(state: Any) -> np.random.Generator:
+    """A PCG64 generator in the given state."""
+    limits = {"has_uint32": 1, "uinteger": 2**32 - 1}
+    if not isinstance(state, dict) or set(state) != {"bit_generator", "state", *limits}:
+        raise SnapshotError("the snapshot's generator state has other parts than PCG64's")
+    inner = state["state"]
+    if state["bit_generator"] != "PCG64" or not isinstance(inner, dict):
+        raise SnapshotError("the snapshot's generator is not PCG64")
+    if set(inner) != {"inc", "state"}:
+        raise SnapshotError("the snapshot's generator state has other parts than PCG64's")
+    for name, most in limits.items():
+        _integer(f"rng.{name}", state[name], most)
+    for name in inner:
+        _integer(f"rng.state.{name}", inner[name], 2**128 - 1)
+    if inner["inc"] % 2 == 0:
+        raise SnapshotError("the snapshot's generator has an even increment")
+    bits = np.random.PCG64(0)
+    bits.state = state  # type: ignore[assignment]
+    return np.random.Generator(bits)
+
+
+def _integer(field: str, value: Any, most: int) -> int:
+    if type(value) is not int or not 0 <= value <= most:
+        raise InvalidValueError(field, value, f"a whole number in [0, {most}]")
+    return value
+
+
+def _checksum(length: int, packed: bytes) -> int:
+    return zlib.crc32(packed, zlib.crc32(struct.pack("<I", length)))
+
+
+def _refuse_constant(name: str) -> float:
+    raise ValueError(f"{name} is not a number")

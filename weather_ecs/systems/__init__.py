@@ -1,0 +1,46 @@
+"""Systems, and the one table that says in which order they run and why."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from weather_ecs.systems.extract import ExtractSystem
+from weather_ecs.systems.processor import System, WeatherProcessor
+from weather_ecs.systems.rain_area import RainAreaSystem
+from weather_ecs.systems.state import WeatherState
+from weather_ecs.systems.wind import WindSystem
+
+
+class Row(NamedTuple):
+    """One system's place in the schedule."""
+
+    system: type[System]
+    order: int
+    phase: str  # "step": at every fixed step; "frame": once in every esper.process
+    reason: str
+
+
+SCHEDULE: tuple[Row, ...] = (
+    Row(WindSystem, 100, "step", "first: whatever drifts needs the wind of this step"),
+    Row(RainAreaSystem, 200, "step", "after the wind, which carries the areas"),
+    Row(ExtractSystem, 900, "frame", "last: publishes what all the others have made"),
+)
+
+
+def scheduled(phase: str) -> list[System]:
+    """New systems of one phase, in their order."""
+    rows = sorted((row for row in SCHEDULE if row.phase == phase), key=lambda row: row.order)
+    return [row.system() for row in rows]
+
+
+__all__ = [
+    "SCHEDULE",
+    "ExtractSystem",
+    "RainAreaSystem",
+    "Row",
+    "System",
+    "WeatherProcessor",
+    "WeatherState",
+    "WindSystem",
+    "scheduled",
+]

@@ -1,0 +1,123 @@
+"""`ExtractSystem`: publishes the weather as one `FrameData`."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from operator import is_
+from typing import Any
+
+import esper
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.components import PointLight, RainArea, RainContainer, Sun, Wind
+from weather_ecs.frame import AREA_DTYPE, LIGHT_DTYPE, DropLook, FrameData, SkyLight, empty
+from weather_ecs.systems.queries import alive
+from weather_ecs.systems.rain_area import drift_velocity
+from weather_ecs.systems.state import WeatherState
+from weather_ecs.systems.wind import total_wind
+
+_KINDS = (RainArea, Wind, PointLight, Sun, RainContainer)
+_LOOK = tuple(item.name for item in fields(DropLook))
+_NO_AREAS = empty(AREA_DTYPE)
+_NO_LIGHTS = empty(LIGHT_DTYPE)
+
+
+class ExtractSystem:
+    """Publishes one `FrameData` a frame; what has not changed since the last one is shared.
+
+    `run` only says that a new frame is due. The arrays are made when somebody first looks at
+    them, so that a server, which draws nothing, pays nothing, and a game that changes a component
+    after `esper.process` sees the change in the same frame.
+    """
+
+    def __init__(self) -> None:
+        self._frame: FrameData | None = None
+        self._lists: tuple[list[Any], ...] = ()
+        self._revisions: tuple[int, ...] = ()
+        self._entities: list[int] = []
+        self._still: NDArray = _NO_AREAS  # the areas where the last fixed step left them
+        self._velocity: NDArray | None = None  # (n, 2), m/s; None where all stand still
+        self._parts: tuple[NDArray, tuple[float, float, float], SkyLight, DropLook]
+        self._time = -1.0
+
+    def run(self, state: WeatherState) -> None:
+        """A new frame is due."""
+        self._time = -1.0
+
+    def frame(self, state: WeatherState) -> FrameData:
+        """The weather now; the same object as before where nothing has changed."""
+        lists = tuple([esper.get_component(kind) for kind in _KINDS])
+        revisions = tuple([kind._revision[0] for kind in _KINDS])
+        if (
+            self._frame is None
+            or revisions != self._revisions
+            or not all(map(is_, lists, self._lists))
+            or not all(map(esper.entity_exists, self._entities))
+        ):
+            self._rebuild(state)
+            self._lists, self._revisions = lists, revisions
+        elif self._time == state.clock.time:
+            return self._frame
+        self._time = state.clock.time
+        self._frame = self._at_time(state)
+        return self._frame
+
+    def _at_time(self, state: WeatherState) -> FrameData:
+        """The parts at the clock's time: moving areas are carried on by the remainder."""
+        areas, parts, clock = self._still, self._parts, state.clock
+        if self._velocity is not None and clock.remainder > 0.0:
+            areas = areas.copy()
+            areas["center"] += self._velocity * clock.remainder
+            areas.setflags(write=False)
+        return FrameData(clock.time, clock.steps, areas, *parts)
+
+    def _rebuild(self, state: WeatherState) -> None:
+        wind = total_wind(state)
+        found = alive(RainArea, state.uids)
+        rows = [
+            (
+                uid,
+                area.center,
+                area.radii,
+                area.heading,
+                area.rain_rate,
+                min(area.soft_edge, area.radii[1]),
+                area.ceiling,
+            )
+            for uid, area in found
+        ]
+        velocities = [drift_velocity(area, wind) for _, area in found]
+        self._still = _frozen(rows, AREA_DTYPE) if rows else _NO_AREAS
+        self._velocity = np.array(velocities) if any(map(any, velocities)) else None
+        lamps = [
+            (lamp.position, lamp.color, lamp.reach) for _, lamp in alive(PointLight, state.uids)
+        ]
+        lights = _frozen(lamps, LIGHT_DTYPE) if lamps else _NO_LIGHTS
+        self._parts = (lights, wind, _sky(state), _look(state))
+        self._entities = [
+            pair[0]
+            for kind in _KINDS
+            for pair in esper.get_component(kind)
+            if esper.entity_exists(pair[0])
+        ]
+
+
+def _frozen(rows: list[tuple[Any, ...]], dtype: np.dtype) -> NDArray:
+    array = np.array(rows, dtype)
+    array.setflags(write=False)
+    return array
+
+
+def _sky(state: WeatherState) -> SkyLight:
+    for _, sun in alive(Sun, state.uids):
+        return SkyLight(
+            sun.direction, sun.color, sun.zenith_color, sun.horizon_color, sun.ground_color
+        )
+    return SkyLight()
+
+
+def _look(state: WeatherState) -> DropLook:
+    for _, container in alive(RainContainer, state.uids):
+        return DropLook(*[getattr(container, name) for name in _LOOK])
+    return DropLook()

@@ -1,0 +1,46 @@
+"""What systems ask of esper: living entities, in the weather's own world, in a stable order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TypeVar
+
+import esper
+
+from weather_ecs.errors import WeatherError
+from weather_ecs.systems.uids import Uids
+
+C = TypeVar("C")
+
+
+def alive(component_type: type[C], uids: Uids) -> list[tuple[int, C]]:
+    """(uid, component) sorted by uid; entities whose deletion is pending are left out."""
+    pairs = esper.get_component(component_type)
+    if not pairs:
+        return []
+    exists, current = esper.entity_exists, uids.current()
+    found = [(current[entity], component) for entity, component in pairs if exists(entity)]
+    if len(found) > 1:
+        found.sort(key=_uid)
+    return found
+
+
+def _uid(pair: tuple[int, object]) -> int:
+    return pair[0]
+
+
+@contextmanager
+def in_world(name: str) -> Iterator[None]:
+    """Work on another of esper's worlds and come back. Raises WeatherError if it is gone."""
+    before = esper.current_world
+    if before == name:
+        yield
+        return
+    if name not in esper.list_worlds():
+        raise WeatherError(f"the esper world {name!r} of this weather was deleted")
+    esper.switch_world(name)
+    try:
+        yield
+    finally:
+        esper.switch_world(before)

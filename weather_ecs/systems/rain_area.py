@@ -1,0 +1,30 @@
+"""`RainAreaSystem`: moves the rain areas."""
+
+from __future__ import annotations
+
+from weather_ecs.clock import STEP
+from weather_ecs.components import RainArea
+from weather_ecs.components._base import FAR, set_unchecked
+from weather_ecs.systems.queries import alive
+from weather_ecs.systems.state import WeatherState
+
+
+def drift_velocity(area: RainArea, wind: tuple[float, float, float]) -> tuple[float, float]:
+    """Velocity of an area over the ground, (x, z), m/s: its own and the wind's share."""
+    x, z = area.velocity
+    drift = area.drift
+    return x + drift * wind[0], z + drift * wind[2]
+
+
+class RainAreaSystem:
+    """Carries every rain area by its velocity and its share of the wind."""
+
+    def run(self, state: WeatherState) -> None:
+        """Move the areas by one fixed step; at the end of the world they stop."""
+        for _, area in alive(RainArea, state.uids):
+            vx, vz = drift_velocity(area, state.wind)
+            if vx or vz:
+                x, z = area.center
+                x = min(max(x + vx * STEP, -FAR), FAR)
+                z = min(max(z + vz * STEP, -FAR), FAR)
+                set_unchecked(area, "center", (x, z))

@@ -1,0 +1,21 @@
+"""`WeatherState`: what the systems share."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from weather_ecs.clock import Clock
+from weather_ecs.systems.uids import Uids
+
+
+class WeatherState:
+    """One weather's state beyond its components. All of it goes into a snapshot."""
+
+    __slots__ = ("clock", "rng", "seed", "uids", "wind")
+
+    def __init__(self, seed: int) -> None:
+        self.seed = seed
+        self.rng = np.random.Generator(np.random.PCG64(seed))  # the only source of chance
+        self.clock = Clock()
+        self.uids = Uids()
+        self.wind = (0.0, 0.0, 0.0)  # m/s, world axes; summed by WindSystem

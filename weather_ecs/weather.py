@@ -1,0 +1,324 @@
+"""`Weather`: the face of the package; wires the systems to esper and the renderer to a window."""
+
+from __future__ import annotations
+
+import sys
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
+
+import esper
+
+from weather_ecs import snapshot
+from weather_ecs.components import Observer
+from weather_ecs.components._base import FAR, integer, vector
+from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, WeatherError
+from weather_ecs.frame import FrameData
+from weather_ecs.physics.camera import camera_from
+from weather_ecs.quality import AutoQuality, QualitySettings, settings_for
+from weather_ecs.sampling import Sample, SampleField
+from weather_ecs.stats import Stats
+from weather_ecs.systems import ExtractSystem, WeatherProcessor, WeatherState, scheduled
+from weather_ecs.systems.queries import in_world
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from weather_ecs.gpu.renderer import Renderer
+
+BACKENDS = ("auto", "compute", "feedback")
+
+_check_seed = integer(0, 2**63 - 1)
+_check_position = vector(3, -FAR, FAR)
+
+
+class Weather:
+    """The weather of esper's current world.
+
+    With a pyglet window, or with a moderngl context that the game has made, it draws; with
+    neither it only simulates, as a game server does. It lives in the world that was current when
+    it was made, whichever is current later; a world has one weather at most.
+
+    Raises InvalidValueError for a bad seed, quality or backend, ContextError where OpenGL is
+    missing or too old, WeatherError where the world has a weather already.
+    """
+
+    def __init__(
+        self,
+        window: Any = None,
+        *,
+        context: Any = None,
+        seed: int = 0,
+        quality: str = "auto",
+        backend: str = "auto",
+    ) -> None:
+        self._closed = True  # until everything stands, there is nothing to close
+        if not isinstance(backend, str) or backend not in BACKENDS:
+            raise InvalidValueError("backend", backend, ", ".join(BACKENDS))
+        self._state = WeatherState(_check_seed("seed", seed))
+        self._settings: QualitySettings = settings_for(quality)
+        self._auto = AutoQuality()
+        if esper.get_processor(WeatherProcessor) is not None:
+            raise WeatherError(f"the esper world {esper.current_world!r} has a weather already")
+        self._world = esper.current_world
+        self._window = window
+        self._context = context
+        self._asked_backend = backend
+        self._renderer: Renderer | None = None
+        self._renderer_seed = self._state.seed
+        if window is not None or context is not None:
+            self._renderer = self._make_renderer()
+        self._backend: str = "none" if self._renderer is None else self._renderer.backend
+        self._stats = Stats(quality=self._settings.name, backend=self._backend)
+        self._observer: tuple[float, float, float] | None = None  # m, of the last draw
+        self._keys: WeakKeyDictionary[Observer, int] = WeakKeyDictionary()
+        self._next_key = 1  # 0 is the implicit observer
+        self._field: SampleField | None = None
+        self._field_frame: FrameData | None = None
+        self._frame_start: float | None = None  # s, of the first draw since esper.process
+        self._frame_is_new = True
+        self._gpu_ms = self._cpu_ms = 0.0  # of all draws of this frame
+        step, frame = scheduled("step"), scheduled("frame")
+        self._extract = next(system for system in frame if isinstance(system, ExtractSystem))
+        self._processor = WeatherProcessor(self._state, step, frame, self._processed)
+        esper.add_processor(self._processor)
+        self._closed = False
+
+    # What the game asks and sets
+
+    def sample(self, position: Any) -> Sample:
+        """The weather at a point (x, y, z) in metres. Raises InvalidValueError for no point."""
+        x, y, z = _check_position("position", position)
+        return self._sample_field().at(x, y, z)
+
+    @property
+    def stats(self) -> Stats:
+        """Figures of the last frame, brought up to date."""
+        if not self._closed:
+            self._refresh_stats()
+        return self._stats
+
+    @property
+    def paused(self) -> bool:
+        """While it is paused, the weather stands still: drops hang in the air."""
+        return self._state.clock.paused
+
+    @paused.setter
+    def paused(self, value: bool) -> None:
+        self._check_open()
+        self._state.clock.paused = value
+
+    @property
+    def speed(self) -> float:
+        """Seconds of weather in a second of the game, 0 to 1000."""
+        return self._state.clock.speed
+
+    @speed.setter
+    def speed(self, value: float) -> None:
+        self._check_open()
+        self._state.clock.speed = value
+
+    @property
+    def quality(self) -> str:
+        """What the weather may cost: low, medium, high, ultra, or auto, which adapts."""
+        return self._settings.name
+
+    @quality.setter
+    def quality(self, value: str) -> None:
+        self._check_open()
+        self._settings = settings_for(value)
+        self._auto = AutoQuality()
+        self._stats.quality = self._settings.name
+
+    @property
+    def backend(self) -> str:
+        """How the drops are moved: compute, feedback, or none without OpenGL."""
+        return self._backend
+
+    def snapshot(self) -> bytes:
+        """The whole weather as bytes: same snapshot and same steps, same weather, anywhere.
+
+        What belongs to the game (observers, occluders) is not in it.
+        """
+        self._check_open()
+        with in_world(self._world):
+            return snapshot.encode(snapshot.capture(self._state))
+
+    def restore(self, data: bytes) -> None:
+        """Make the weather what it was when `data` was taken.
+
+        Entities it knows get their weather components back, missing ones are created, weather
+        components it does not know are removed. Raises SnapshotError, and changes nothing, for
+        bytes that are not a sound snapshot.
+        """
+        self._check_open()
+        loaded = snapshot.load(snapshot.decode(data))
+        with in_world(self._world):
+            snapshot.apply(self._state, loaded)
+        self._extract.run(self._state)
+        self._stats.time = self._state.clock.time
+
+    # Drawing
+
+    def draw(
+        self, view: Any = None, projection: Any = None, *, observer: Observer | None = None
+    ) -> None:
+        """Draw the weather over what the game has drawn; time does not move.
+
+        The matrices are 16 floats column by column (a pyglet `Mat4`) or arrays of shape (4, 4)
+        for column vectors; without them those of the window count. `observer` says whose rain it
+        is where there are several. A window that is closed or has no size is left alone.
+
+        Raises InvalidValueError for a matrix that is none, ContextError without OpenGL.
+        """
+        self._check_open()
+        if observer is not None and not isinstance(observer, Observer):
+            raise InvalidValueError("observer", observer, "an Observer component or None")
+        if self._window is None and self._context is None:
+            raise ContextError("this weather was made with neither window nor context to draw to")
+        if self._window is not None and not _can_be_drawn_to(self._window):
+            return
+        started = perf_counter()
+        if self._window is not None:
+            _make_current(self._window)
+            view = self._window.view if view is None else view
+            projection = self._window.projection if projection is None else projection
+        camera = camera_from(view, projection)
+        frame = self._frame()
+        self._begin_frame(started)
+        renderer = self._ready_renderer()
+        renderer.draw(frame, camera, self._key(observer), self._draw_settings())
+        self._observer = camera.position
+        self._stats.count(renderer.stats)
+        self._gpu_ms += float(renderer.stats.get("gpu_ms", 0.0))
+        self._refresh_stats()
+        self._stats.ms = (perf_counter() - started) * 1000.0
+        self._cpu_ms += self._stats.ms
+
+    def _make_renderer(self) -> Renderer:
+        from weather_ecs.gpu.context import obtain
+        from weather_ecs.gpu.renderer import Renderer
+
+        if self._window is not None:
+            if self._window.context is None:
+                raise ContextError("the window is closed")
+            _make_current(self._window)
+        context = obtain(self._context)
+        return Renderer(context, backend=self._asked_backend, seed=self._state.seed)
+
+    def _ready_renderer(self) -> Renderer:
+        """The renderer; made anew where a snapshot has brought another seed."""
+        if self._renderer is not None and self._renderer_seed != self._state.seed:
+            self._renderer.release()
+            self._renderer = None
+        if self._renderer is None:
+            self._renderer = self._make_renderer()
+            self._renderer_seed = self._state.seed
+        return self._renderer
+
+    def _key(self, observer: Observer | None) -> int:
+        if observer is None:
+            return 0
+        key = self._keys.get(observer)
+        if key is None:
+            key = self._keys[observer] = self._next_key
+            self._next_key += 1
+        return key
+
+    def _draw_settings(self) -> QualitySettings:
+        return self._auto.settings() if self._settings.name == "auto" else self._settings
+
+    def _begin_frame(self, now: float) -> None:
+        """At the first draw after `esper.process`: teach the automatic quality the last frame."""
+        if not self._frame_is_new:
+            return
+        self._frame_is_new = False
+        if self._frame_start is not None and self._stats.drops_drawn:
+            frame_ms = (now - self._frame_start) * 1000.0
+            self._auto.feed(frame_ms, self._gpu_ms, self._cpu_ms)
+        self._frame_start = now
+        self._gpu_ms = self._cpu_ms = 0.0
+
+    # The end
+
+    def close(self) -> None:
+        """Give back every OpenGL object and leave esper's world; a second time does nothing."""
+        if self._closed:
+            return
+        self._closed = True
+        if self._world in esper.list_worlds():
+            with in_world(self._world):
+                if esper.get_processor(WeatherProcessor) is self._processor:
+                    esper.remove_processor(WeatherProcessor)
+        renderer, self._renderer = self._renderer, None
+        if renderer is None:
+            return
+        if self._window is not None:
+            if self._window.context is None:
+                return  # its objects went with the window
+            _make_current(self._window)
+        renderer.release()
+
+    def __enter__(self) -> Weather:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _check_open(self) -> None:
+        if self._closed:
+            raise ClosedError("this weather is closed")
+
+    # Between the systems and the above
+
+    def _processed(self) -> None:
+        self._stats.frame += 1
+        self._stats.time = self._state.clock.time
+        self._frame_is_new = True
+
+    def _frame(self) -> FrameData:
+        if esper.current_world == self._world:
+            return self._extract.frame(self._state)
+        with in_world(self._world):
+            return self._extract.frame(self._state)
+
+    def _sample_field(self) -> SampleField:
+        self._check_open()
+        frame = self._frame()
+        if self._field is None or frame is not self._field_frame:
+            self._field, self._field_frame = SampleField(frame), frame
+        return self._field
+
+    def _refresh_stats(self) -> None:
+        x, y, z = self._observer or self._first_observer()
+        field = self._sample_field()
+        self._stats.mode = field.mode(x, z)
+        self._stats.rain_rate_here = field.rain_rate(x, y, z)
+
+    def _first_observer(self) -> tuple[float, float, float]:
+        """Where nothing has been drawn yet: the oldest observer, or the origin."""
+        with in_world(self._world):
+            pairs = esper.get_component(Observer)
+            return min(pairs, key=_entity)[1].position if pairs else (0.0, 0.0, 0.0)
+
+
+def _entity(pair: tuple[int, object]) -> int:
+    return pair[0]
+
+
+def _can_be_drawn_to(window: Any) -> bool:
+    if window.context is None or window.has_exit:
+        return False
+    width, height = window.get_size()
+    return width > 0 and height > 0
+
+
+def _make_current(window: Any) -> None:
+    gl = sys.modules.get("pyglet.gl")
+    if gl is None or gl.current_context is not window.context:
+        window.switch_to()
