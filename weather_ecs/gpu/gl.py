@@ -37,7 +37,7 @@ SINCE = {
     "glDispatchComputeIndirect": 430,
     "glShaderStorageBlockBinding": 430,
     "glClearBufferData": 430,
-    "glBindTextures": 440,
+    "glBindBuffersBase": 440,
     "glBindSamplers": 440,
 }
 
@@ -104,6 +104,7 @@ class GL:
     glBindBuffer: Callable[[U, U], None]
     glBindBufferBase: Callable[[U, U, U], None]
     glBindBufferRange: Callable[[U, U, U, Z, Z], None]
+    glBindBuffersBase: Callable[[U, U, I, P], None] | None
     glBufferData: Callable[[U, Z, P, U], None]
     glBufferSubData: Callable[[U, Z, Z, P], None]
     glGetBufferSubData: Callable[[U, Z, Z, P], None]
@@ -118,7 +119,6 @@ class GL:
     glDeleteTextures: Callable[[I, P], None]
     glIsTexture: Callable[[U], B]
     glBindTexture: Callable[[U, U], None]
-    glBindTextures: Callable[[U, I, P], None] | None
     glBindSampler: Callable[[U, U], None]
     glBindSamplers: Callable[[U, I, P], None] | None
     glTexParameteri: Callable[[U, U, I], None]

@@ -1,0 +1,233 @@
+"""Reads the OpenGL state a guest has to put back, sets a known baseline, puts the state back."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from weather_ecs.gpu import gl_enums as e
+from weather_ecs.gpu.gl import GL
+from weather_ecs.gpu.saved_bindings import IndexedBuffers, TextureUnits
+from weather_ecs.gpu.state_tables import (
+    DOUBLES,
+    FLOATS,
+    FOREIGN,
+    INTEGERS,
+    SWITCHES,
+    UNCHANGED,
+    Row,
+)
+
+
+class Values:
+    """State values of one C type, read and set by the rows of a table."""
+
+    def __init__(
+        self, gl: GL, getter: Callable[[int, int | None], None], c_type: Any, rows: Sequence[Row]
+    ) -> None:
+        self._get = getter
+        self._size = ctypes.sizeof(c_type)
+        self.start: dict[int, int] = {}  # place of a state value, by its name
+        self._reads: list[tuple[int, int]] = []
+        self._sets: list[tuple[Callable[..., None], tuple[int, ...], int, int]] = []
+        self._baseline: list[tuple[Callable[..., None], tuple[float, ...]]] = []
+        # Place and baseline of what only the host changes, and how to set it.
+        self._unchanged: list[tuple[int, int, Callable[..., None], tuple[int, ...]]] = []
+        # Two to spare: the polygon mode is one value or two.
+        self._buffer = (c_type * (sum(n for row in rows for _, n in row[2]) + 2))()
+        self.values: list[Any] = []
+        filled = 0
+        for name, prefix, parts, baseline in rows:
+            function = getattr(gl, name)
+            if function is None or not known(gl, parts[0][0]):
+                continue
+            first = filled
+            for part, count in parts:
+                self.start[part] = filled
+                self._reads.append((part, ctypes.addressof(self._buffer) + filled * self._size))
+                filled += count
+            if parts[0][0] in UNCHANGED and baseline is not None:
+                self._unchanged.append((first, int(baseline[0]), function, prefix))
+                continue
+            self._sets.append((function, prefix, first, filled))
+            if baseline is not None:
+                self._baseline.append((function, (*prefix, *baseline)))
+
+    def save(self) -> None:
+        get = self._get
+        for name, address in self._reads:
+            get(name, address)
+        self.values = self._buffer[:]
+
+    def baseline(self) -> None:
+        for function, arguments in self._baseline:
+            function(*arguments)
+        values = self.values
+        for place, wanted, setter, prefix in self._unchanged:
+            if values[place] != wanted:
+                setter(*prefix, wanted)
+
+    def restore(self) -> None:
+        values = self.values
+        for function, prefix, first, last in self._sets:
+            function(*prefix, *values[first:last])
+        for place, wanted, setter, prefix in self._unchanged:
+            if values[place] != wanted:
+                setter(*prefix, values[place])
+
+
+def known(gl: GL, name: int) -> bool:
+    """Whether the driver knows a state value; leaves no error behind."""
+    while gl.error():
+        pass
+    gl.get_ints(name, 16)
+    return gl.error() == e.NO_ERROR
+
+
+class Switches:
+    """The capabilities of glEnable."""
+
+    def __init__(self, gl: GL) -> None:
+        self._gl = gl
+        self._ours = [pair for pair in SWITCHES if known(gl, pair[0])]
+        self._foreign = [capability for capability in FOREIGN if known(gl, capability)]
+        self._on: list[int] = []
+        self._foreign_on: list[int] = []
+
+    def save(self) -> None:
+        is_enabled = self._gl.glIsEnabled
+        self._on = [is_enabled(capability) for capability, _ in self._ours]
+        self._foreign_on = [capability for capability in self._foreign if is_enabled(capability)]
+
+    def baseline(self) -> None:
+        gl = self._gl
+        for (capability, wanted), on in zip(self._ours, self._on, strict=True):
+            if wanted is not None and wanted != on:
+                (gl.glEnable if wanted else gl.glDisable)(capability)
+        for capability in self._foreign_on:
+            gl.glDisable(capability)
+
+    def restore(self) -> None:
+        enable, disable = self._gl.glEnable, self._gl.glDisable
+        for (capability, _), on in zip(self._ours, self._on, strict=True):
+            (enable if on else disable)(capability)
+        for capability in self._foreign_on:
+            enable(capability)
+
+
+class SavedState:
+    """All of it: `save`, then `baseline`, then `restore`. The framebuffer stays bound throughout.
+
+    Must be made, and used, with the context of `gl` current.
+    """
+
+    def __init__(
+        self, gl: GL, *, texture_units: int, own_unit: int, uniform_slots: int, storage_slots: int
+    ) -> None:
+        self._gl = gl
+        self._integers = Values(gl, gl.glGetIntegerv, ctypes.c_int, INTEGERS)
+        self._floats = Values(gl, gl.glGetFloatv, ctypes.c_float, FLOATS)
+        self._doubles = Values(gl, gl.glGetDoublev, ctypes.c_double, DOUBLES)
+        self._switches = Switches(gl)
+        self._textures = TextureUnits(gl, texture_units, own_unit)
+        self._buffers = IndexedBuffers(gl, uniform_slots, storage_slots)
+        self._targets = DrawTargets(gl)
+        self._parts = (self._integers, self._floats, self._doubles, self._switches)
+
+    def save(self) -> None:
+        for part in self._parts:
+            part.save()
+        self._textures.save()
+        self._buffers.save()
+        self._targets.save(self.draw_framebuffer)
+
+    def baseline(self) -> None:
+        for part in self._parts:
+            part.baseline()
+        self._textures.baseline()
+        self._buffers.baseline()
+
+    def restore(self) -> None:
+        # Binding an indexed buffer also binds the plain one, so those come first.
+        self._buffers.restore()
+        self._textures.restore()
+        integers = self._integers
+        program = integers.start[e.CURRENT_PROGRAM]
+        # A program that was deleted while in use is gone once another one was used.
+        if integers.values[program] and not self._gl.glIsProgram(integers.values[program]):
+            integers.values[program] = 0
+        for part in self._parts:
+            part.restore()
+        self._targets.restore()
+
+    @property
+    def draw_framebuffer(self) -> int:
+        """Name of the framebuffer the host draws to; 0 is the window's."""
+        return int(self._integers.values[self._integers.start[e.DRAW_FRAMEBUFFER_BINDING]])
+
+    @property
+    def viewport(self) -> tuple[int, int, int, int]:
+        """The host's viewport: x, y, width, height in pixels."""
+        first = self._integers.start[e.VIEWPORT]
+        x, y, width, height = self._integers.values[first : first + 4]
+        return x, y, width, height
+
+
+class DrawTargets:
+    """What belongs to single draw buffers: their choice, and blending and masks set one by one."""
+
+    def __init__(self, gl: GL) -> None:
+        self._gl = gl
+        count = min(gl.get_int(e.MAX_DRAW_BUFFERS), 8)
+        self._indices = range(1, count)
+        self._buffers = (ctypes.c_int * count)()
+        first = ctypes.addressof(self._buffers)
+        self._reads = [(e.DRAW_BUFFER0 + i, first + 4 * i) for i in range(count)]
+        self._named = False
+        self._scratch = (ctypes.c_int * 4)()
+        self._address = ctypes.addressof(self._scratch)
+        self._base: tuple[int, ...] = ()
+        self._different: list[tuple[int, tuple[int, ...]]] = []
+
+    def save(self, framebuffer: int) -> None:
+        gl = self._gl
+        self._named = framebuffer != 0
+        if self._named:
+            for name, address in self._reads:
+                gl.glGetIntegerv(name, address)
+        self._different = []
+        # A host that blends its targets differently makes the second differ from the first.
+        if self._indices and self._read(1) != self._read(0):
+            self._different = [(index, self._read(index)) for index in self._indices]
+
+    def _read(self, index: int) -> tuple[int, ...]:
+        gl, scratch, address = self._gl, self._scratch, self._address
+        gl.glGetIntegeri_v(e.COLOR_WRITEMASK, index, address)
+        values = [gl.glIsEnabledi(e.BLEND, index), *scratch]
+        if gl.glBlendFuncSeparatei is not None:
+            for name in BLENDING:
+                gl.glGetIntegeri_v(name, index, address)
+                values.append(scratch[0])
+        return tuple(values)
+
+    def restore(self) -> None:
+        gl = self._gl
+        if self._named:
+            gl.glDrawBuffers(len(self._buffers), ctypes.addressof(self._buffers))
+        for index, (blend, red, green, blue, alpha, *function) in self._different:
+            (gl.glEnablei if blend else gl.glDisablei)(e.BLEND, index)
+            gl.glColorMaski(index, red, green, blue, alpha)
+            if function and gl.glBlendFuncSeparatei and gl.glBlendEquationSeparatei:
+                gl.glBlendFuncSeparatei(index, *function[:4])
+                gl.glBlendEquationSeparatei(index, *function[4:])
+
+
+BLENDING = (
+    e.BLEND_SRC_RGB,
+    e.BLEND_DST_RGB,
+    e.BLEND_SRC_ALPHA,
+    e.BLEND_DST_ALPHA,
+    e.BLEND_EQUATION_RGB,
+    e.BLEND_EQUATION_ALPHA,
+)
