@@ -80,7 +80,7 @@ def diameter_quantile(u: ArrayLike, rain_rate: ArrayLike) -> FloatArray:
     share = floats("u", u, 0.0, 1.0)
     steepness = slope(rain_rate)
     width = LARGEST_DROP - SMALLEST_DROP
-    with np.errstate(divide="ignore"):  # u = 1 where e^(-5.5 L) rounds to 0: clipped below
+    with np.errstate(divide="ignore", invalid="ignore"):  # u = 1 where e^(-5.5 L) rounds to 0
         above = -np.log1p(share * np.expm1(-steepness * width)) / steepness
     above = np.where(np.isinf(steepness), 0.0, above)
     return SMALLEST_DROP + np.clip(above, 0.0, width)

@@ -1,0 +1,46 @@
+"""How far one sees: fog, visibility and what rain does to it. Metres and 1/m throughout."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .checks import FloatArray, floats
+from .drops import extinction
+
+CONTRAST = 3.912  # ln 50: Koschmieder, an object is seen down to 2 % of its contrast
+
+
+def fog_factor(distance: ArrayLike, density: ArrayLike) -> FloatArray:
+    """Share of an object's own light left after `distance`, exp(-density distance), 0 to 1.
+
+    1 at distance 0 or in clear air (density 0), also at infinity: then nothing is lost. The rest,
+    1 minus this, is filled with the fog's colour.
+    """
+    far = floats("distance", distance, 0.0, math.inf)
+    thick = floats("density", density, 0.0, math.inf)
+    with np.errstate(invalid="ignore", over="ignore"):  # 0 times infinity: no fog, or no way
+        depth = far * thick
+    return np.exp(-np.where(np.isnan(depth), 0.0, depth))
+
+
+def visibility_to_extinction(visibility: ArrayLike) -> FloatArray:
+    """Extinction of air in which one sees this far (Koschmieder 1924): 3.912 / visibility.
+
+    0 for an infinite visibility. Raises InvalidValueError for 0, where extinction has no value.
+    """
+    return CONTRAST / floats("visibility", visibility, 1e-300, math.inf)
+
+
+def extinction_to_visibility(extinction: ArrayLike) -> FloatArray:
+    """How far one sees in air of this extinction; infinite where it is 0."""
+    lost = floats("extinction", extinction, 0.0, math.inf)
+    with np.errstate(divide="ignore", over="ignore"):
+        return np.divide(CONTRAST, lost)
+
+
+def visibility_in_rain(rain_rate: ArrayLike, clear: ArrayLike = math.inf) -> FloatArray:
+    """How far one sees through rain (mm/h), in air that shows `clear` metres without it."""
+    return extinction_to_visibility(extinction(rain_rate) + visibility_to_extinction(clear))
