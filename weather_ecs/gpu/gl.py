@@ -207,6 +207,11 @@ class GL:
         self.glGetIntegerv(name, self._address)
         return tuple(self._scratch[:count])
 
+    def get_query(self, target: int, name: int) -> int:
+        """A value of a query target, such as CURRENT_QUERY."""
+        self.glGetQueryiv(target, name, self._address)
+        return self._scratch[0]
+
     def get_string(self, name: int) -> str:
         return (self.glGetString(name) or b"").decode("utf-8", "replace")
 

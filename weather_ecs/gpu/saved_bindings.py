@@ -12,7 +12,7 @@ FEEDBACK_SLOTS = 4
 
 
 class TextureUnits:
-    """Textures and samplers of units 0 to `count` - 1 and of `own`, where moderngl makes textures."""
+    """Textures and samplers of units below `count`, and of `own`, where moderngl makes textures."""
 
     def __init__(self, gl: GL, count: int, own: int) -> None:
         self._gl = gl

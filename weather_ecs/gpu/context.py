@@ -1,0 +1,84 @@
+"""The moderngl context to work in, and what its OpenGL can do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+
+from weather_ecs.errors import ContextError, InvalidValueError
+from weather_ecs.gpu import gl_enums as e
+from weather_ecs.gpu.gl import GL
+from weather_ecs.gpu.saved_state import SavedState
+
+REQUIRED = 330
+COMPUTE = 430
+# Invocations in a work group that the kernels ask for.
+GROUP_SIZE = 128
+
+
+@dataclass(frozen=True, slots=True)
+class Capabilities:
+    """What the current OpenGL offers."""
+
+    version: int  # 330 for OpenGL 3.3
+    renderer: str
+    vendor: str
+    compute: bool  # compute shaders and storage buffers, OpenGL 4.3
+    geometry_shader: bool
+    timer_queries: bool  # time stamps with a resolution
+    uniform_bindings: int
+    storage_bindings: int
+    texture_units: int  # in one shader stage
+    texture_size: int  # texels
+
+
+def probe(ctx: moderngl.Context, gl: GL | None = None) -> Capabilities:
+    """Ask the current context; `gl` saves loading the entry points again."""
+    gl = gl if gl is not None else GL()
+    compute = min(gl.version, ctx.version_code) >= COMPUTE
+    return Capabilities(
+        version=gl.version,
+        renderer=gl.get_string(e.RENDERER),
+        vendor=gl.get_string(e.VENDOR),
+        compute=compute and gl.get_int(e.MAX_COMPUTE_WORK_GROUP_INVOCATIONS) >= GROUP_SIZE,
+        geometry_shader=gl.get_int(e.MAX_GEOMETRY_OUTPUT_VERTICES) > 0,
+        timer_queries=gl.get_query(e.TIMESTAMP, e.QUERY_COUNTER_BITS) > 0,
+        uniform_bindings=gl.get_int(e.MAX_UNIFORM_BUFFER_BINDINGS),
+        storage_bindings=gl.get_int(e.MAX_SHADER_STORAGE_BUFFER_BINDINGS) if compute else 0,
+        texture_units=gl.get_int(e.MAX_TEXTURE_IMAGE_UNITS),
+        texture_size=gl.get_int(e.MAX_TEXTURE_SIZE),
+    )
+
+
+def obtain(context: moderngl.Context | None = None) -> moderngl.Context:
+    """`context` if it can be used, else moderngl's context for what is current.
+
+    The host's OpenGL state is left as it was. Raises ContextError when no context is current, when
+    it is older than OpenGL 3.3, or when `context` was released.
+    """
+    if context is not None:
+        if not isinstance(context, moderngl.Context):
+            raise InvalidValueError("context", context, "a moderngl.Context or None")
+        if isinstance(context.mglo, moderngl.InvalidObject):
+            raise ContextError("the moderngl context was released")
+    gl = GL()
+    require(gl.version, gl.get_string(e.VERSION))
+    if context is not None:
+        return context
+    # moderngl chooses blending, primitive restart and more when it first meets a context.
+    own = gl.get_int(e.MAX_TEXTURE_IMAGE_UNITS) - 1
+    state = SavedState(gl, texture_units=0, own_unit=own, uniform_slots=0, storage_slots=0)
+    state.save()
+    try:
+        return moderngl.get_context()
+    except Exception as error:
+        raise ContextError(f"moderngl cannot use the current OpenGL context: {error}") from error
+    finally:
+        state.restore()
+
+
+def require(version: int, text: str) -> None:
+    """Raises ContextError, naming both versions, for what is older than OpenGL 3.3."""
+    if version < REQUIRED or "OpenGL ES" in text:
+        raise ContextError(f"OpenGL 3.3 is needed, the current context has {text}")

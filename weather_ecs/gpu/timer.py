@@ -1,0 +1,181 @@
+"""GPU time and primitive counts, read some frames later so that nothing ever waits for them."""
+
+from __future__ import annotations
+
+import ctypes
+from collections import deque
+from types import TracebackType
+
+from weather_ecs.gpu import gl_enums as e
+from weather_ecs.gpu.gl import GL
+
+RING = 6  # measurements under way at most; further ones are skipped
+
+
+class QueryRing:
+    """Groups of `size` query objects: some free, some waiting for the GPU, oldest first."""
+
+    def __init__(self, gl: GL, size: int) -> None:
+        self._gl = gl
+        self._names = (ctypes.c_uint * (RING * size))()
+        gl.glGenQueries(len(self._names), ctypes.addressof(self._names))
+        names = list(self._names)
+        self._free = [tuple(names[i : i + size]) for i in range(0, len(names), size)]
+        self._waiting: deque[tuple[int, ...]] = deque()
+        self._value = ctypes.c_uint64()
+        self._address = ctypes.addressof(self._value)
+        self._ready = ctypes.c_int()
+        self._ready_address = ctypes.addressof(self._ready)
+
+    def take(self) -> tuple[int, ...] | None:
+        """A free group, None where all are under way."""
+        return self._free.pop() if self._free else None
+
+    def put(self, group: tuple[int, ...]) -> None:
+        self._waiting.append(group)
+
+    def finished(self) -> list[tuple[int, ...]]:
+        """Results of every group that has them all, oldest first; does not wait."""
+        results = []
+        while self._waiting:
+            group = self._waiting[0]
+            # The last query of a group is the last to be done.
+            self._gl.glGetQueryObjectiv(group[-1], e.QUERY_RESULT_AVAILABLE, self._ready_address)
+            if not self._ready.value:
+                break
+            results.append(tuple(self._result(name) for name in group))
+            self._free.append(self._waiting.popleft())
+        return results
+
+    def _result(self, name: int) -> int:
+        self._gl.glGetQueryObjectui64v(name, e.QUERY_RESULT, self._address)
+        return int(self._value.value)
+
+    def release(self) -> None:
+        """Give the query objects back; twice does no harm."""
+        if self._names:
+            self._gl.glDeleteQueries(len(self._names), ctypes.addressof(self._names))
+            self._names = (ctypes.c_uint * 0)()
+        self._free.clear()
+        self._waiting.clear()
+
+
+class GpuTimer:
+    """Time the GPU takes between `begin` and `end`, or in a `with`.
+
+    Two time stamps rather than an elapsed-time query, of which only one may run: the host's.
+    Where there are none, `latest_ms` stays None.
+    """
+
+    def __init__(self, gl: GL) -> None:
+        self._gl = gl
+        supported = gl.get_query(e.TIMESTAMP, e.QUERY_COUNTER_BITS) > 0
+        self._ring = QueryRing(gl, 2) if supported else None
+        self._open: tuple[int, ...] | None = None
+        self._latest: float | None = None
+
+    def begin(self) -> None:
+        if self._ring is None or self._open is not None:
+            return
+        self._poll()
+        self._open = self._ring.take()
+        if self._open is not None:
+            self._gl.glQueryCounter(self._open[0], e.TIMESTAMP)
+
+    def end(self) -> None:
+        if self._ring is None or self._open is None:
+            return
+        self._gl.glQueryCounter(self._open[1], e.TIMESTAMP)
+        self._ring.put(self._open)
+        self._open = None
+
+    def __enter__(self) -> GpuTimer:
+        self.begin()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.end()
+
+    def _poll(self) -> None:
+        if self._ring is not None:
+            for start, stop in self._ring.finished():
+                self._latest = (stop - start) * 1e-6
+
+    @property
+    def latest_ms(self) -> float | None:
+        """Milliseconds of the latest measurement the GPU has done; None before the first."""
+        self._poll()
+        return self._latest
+
+    def release(self) -> None:
+        """Give the query objects back; twice does no harm."""
+        if self._ring is not None:
+            self._ring.release()
+            self._ring = None
+
+
+class PrimitiveCounter:
+    """Primitives that leave the vertex or geometry shader between `begin` and `end`.
+
+    Skips a measurement while the host counts primitives itself.
+    """
+
+    def __init__(self, gl: GL) -> None:
+        self._gl = gl
+        supported = gl.get_query(e.PRIMITIVES_GENERATED, e.QUERY_COUNTER_BITS) > 0
+        self._ring: QueryRing | None = QueryRing(gl, 1) if supported else None
+        self._open: tuple[int, ...] | None = None
+        self._latest: int | None = None
+
+    def begin(self) -> None:
+        if self._ring is None or self._open is not None:
+            return
+        self._poll()
+        if self._gl.get_query(e.PRIMITIVES_GENERATED, e.CURRENT_QUERY):
+            return
+        self._open = self._ring.take()
+        if self._open is not None:
+            self._gl.glBeginQuery(e.PRIMITIVES_GENERATED, self._open[0])
+
+    def end(self) -> None:
+        if self._ring is None or self._open is None:
+            return
+        self._gl.glEndQuery(e.PRIMITIVES_GENERATED)
+        self._ring.put(self._open)
+        self._open = None
+
+    def __enter__(self) -> PrimitiveCounter:
+        self.begin()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.end()
+
+    def _poll(self) -> None:
+        if self._ring is not None:
+            for (count,) in self._ring.finished():
+                self._latest = count
+
+    @property
+    def latest(self) -> int | None:
+        """The latest count the GPU has done; None before the first."""
+        self._poll()
+        return self._latest
+
+    def release(self) -> None:
+        """Give the query objects back; twice does no harm."""
+        if self._open is not None:
+            self.end()
+        if self._ring is not None:
+            self._ring.release()
+            self._ring = None
