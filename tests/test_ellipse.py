@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics import ellipse
@@ -18,11 +21,11 @@ headings = st.floats(-7.0, 7.0)
 shares = st.floats(-3.0, 3.0)
 
 
-def perimeter(angles, radii):
+def perimeter(angles: NDArray[np.float64], radii: Any) -> NDArray[np.float64]:
     return np.stack((radii[0] * np.cos(angles), radii[1] * np.sin(angles)), axis=-1)
 
 
-def distance_by_search(own, radii):
+def distance_by_search(own: NDArray[np.float64], radii: Any) -> float:
     """Distance to the perimeter in the ellipse's own axes by a search that narrows itself."""
     best, width = np.linspace(0.0, 2.0 * math.pi, 4001), math.pi / 2000.0
     for _ in range(12):
@@ -33,7 +36,7 @@ def distance_by_search(own, radii):
     return gaps.min()
 
 
-def test_implicit_is_equation_1_and_one_on_the_perimeter():
+def test_implicit_is_equation_1_and_one_on_the_perimeter() -> None:
     angles = np.linspace(0.0, 6.0, 50)
     points = ellipse.world(perimeter(angles, (30.0, 7.0)), (4.0, -9.0), 0.7)
     assert np.allclose(ellipse.implicit(points, (4.0, -9.0), (30.0, 7.0), 0.7), 1.0)
@@ -41,7 +44,7 @@ def test_implicit_is_equation_1_and_one_on_the_perimeter():
     assert ellipse.implicit((0.0, 0.0), (0.0, 0.0), (2.0, 1.0)).shape == ()
 
 
-def test_heading_turns_counter_clockwise_seen_from_above():
+def test_heading_turns_counter_clockwise_seen_from_above() -> None:
     """Seen from above, x to the right and z towards the viewer: a quarter turn ends at -z."""
     tip = ellipse.world((5.0, 0.0), (0.0, 0.0), math.pi / 2)
     assert np.allclose(tip, (0.0, -5.0))
@@ -50,14 +53,18 @@ def test_heading_turns_counter_clockwise_seen_from_above():
 
 
 @given(st.tuples(shares, shares), st.tuples(shares, shares), headings)
-def test_world_undoes_local(point, center, heading):
+def test_world_undoes_local(
+    point: tuple[float, float], center: tuple[float, float], heading: float
+) -> None:
     back = ellipse.world(ellipse.local(point, center, heading), center, heading)
     assert np.allclose(back, point, atol=1e-12)
 
 
 @settings(max_examples=60, deadline=None)
 @given(sizes, thinness, st.tuples(shares, shares), headings)
-def test_nearest_point_is_on_the_perimeter_and_no_point_is_nearer(a, thin, share, heading):
+def test_nearest_point_is_on_the_perimeter_and_no_point_is_nearer(
+    a: float, thin: float, share: tuple[float, float], heading: float
+) -> None:
     radii, center = (a, a / thin), (12.0, -7.0)
     own = np.array(share) * radii
     point = ellipse.world(own, center, heading)
@@ -71,7 +78,9 @@ def test_nearest_point_is_on_the_perimeter_and_no_point_is_nearer(a, thin, share
 
 @settings(max_examples=80, deadline=None)
 @given(thinness, st.floats(0.0, 2.0 * math.pi), st.floats(-0.999, 3.0))
-def test_nearest_point_undoes_a_step_along_the_normal(thin, angle, step):
+def test_nearest_point_undoes_a_step_along_the_normal(
+    thin: float, angle: float, step: float
+) -> None:
     """From a perimeter point along its normal; inwards not as far as the major axis."""
     radii = np.array((1.0, 1.0 / thin))
     foot = perimeter(np.array(angle), radii)
@@ -97,7 +106,9 @@ def test_nearest_point_undoes_a_step_along_the_normal(thin, angle, step):
         ((0.75, 0.0), (1.0, math.sqrt(0.75))),  # inside on the major axis: off the axis
     ],
 )
-def test_nearest_point_in_special_places(point, foot):
+def test_nearest_point_in_special_places(
+    point: tuple[float, float], foot: tuple[float, float]
+) -> None:
     assert np.allclose(ellipse.nearest_perimeter_point(point, (0, 0), (2.0, 1.0)), foot, atol=1e-12)
     thin = ellipse.nearest_perimeter_point(np.array(point) * (1e6, 1.0), (0, 0), (2e6, 1.0))
     assert ellipse.implicit(thin, (0, 0), (2e6, 1.0)) == pytest.approx(1.0)
@@ -105,7 +116,7 @@ def test_nearest_point_in_special_places(point, foot):
 
 @pytest.mark.parametrize("across", [1e-3, 1e-9, 1e-100, 1e-200, 5e-324, 0.0])
 @pytest.mark.parametrize("along", [0.0, 0.3, 0.75, 1.49999999, 1.5, 1.6, 2.0, 3.0])
-def test_nearest_point_is_continuous_towards_the_major_axis(along, across):
+def test_nearest_point_is_continuous_towards_the_major_axis(along: float, across: float) -> None:
     foot = ellipse.nearest_perimeter_point((along, across), (0, 0), (2.0, 1.0))
     axis = ellipse.nearest_perimeter_point((along, 0.0), (0, 0), (2.0, 1.0))
     assert np.hypot(*(foot - (along, across))) == pytest.approx(
@@ -114,7 +125,7 @@ def test_nearest_point_is_continuous_towards_the_major_axis(along, across):
     assert foot[1] >= 0.0
 
 
-def test_nearest_point_of_a_circle_and_of_many_points():
+def test_nearest_point_of_a_circle_and_of_many_points() -> None:
     points = np.random.default_rng(4).normal(size=(500, 2)) * 5.0
     feet = ellipse.nearest_perimeter_point(points, (1.0, 2.0), (3.0, 3.0), 0.4)
     way = points - (1.0, 2.0)
@@ -129,7 +140,9 @@ def test_nearest_point_of_a_circle_and_of_many_points():
 
 @settings(max_examples=100)
 @given(thinness, headings, st.floats(0, 6.28), st.floats(0, 6.28), st.floats(-20.0, 20.0))
-def test_line_through_two_perimeter_points_finds_both(thin, heading, first, second, back):
+def test_line_through_two_perimeter_points_finds_both(
+    thin: float, heading: float, first: float, second: float, back: float
+) -> None:
     assume(abs(math.remainder(first - second, 2.0 * math.pi)) > 0.05)
     radii, center = (50.0, 50.0 / thin), (-3.0, 8.0)
     p, q = ellipse.world(perimeter(np.array((first, second)), radii), center, heading)
@@ -142,7 +155,7 @@ def test_line_through_two_perimeter_points_finds_both(thin, heading, first, seco
 
 @pytest.mark.parametrize("heading", [0.0, 0.5, 2.0, -1.2])
 @pytest.mark.parametrize("angle", [0.0, 0.4, 1.3, 4.0])
-def test_tangent_line_touches_once(heading, angle):
+def test_tangent_line_touches_once(heading: float, angle: float) -> None:
     radii, center = (9.0, 4.0), (100.0, -50.0)
     touch = ellipse.world(perimeter(np.array(angle), radii), center, heading)
     along = (-radii[0] * math.sin(angle), radii[1] * math.cos(angle))
@@ -159,7 +172,9 @@ def test_tangent_line_touches_once(heading, angle):
 
 @settings(max_examples=60, deadline=None)
 @given(st.tuples(shares, shares), st.floats(0, 6.28), thinness.filter(lambda t: t < 100), headings)
-def test_chord_is_the_part_of_the_ray_that_is_inside(share, bearing, thin, heading):
+def test_chord_is_the_part_of_the_ray_that_is_inside(
+    share: tuple[float, float], bearing: float, thin: float, heading: float
+) -> None:
     radii, center = (20.0, 20.0 / thin), (5.0, 6.0)
     start = ellipse.world(np.array(share) * radii, center, heading)
     way = 2.5 * np.array((math.cos(bearing), math.sin(bearing)))
@@ -172,7 +187,7 @@ def test_chord_is_the_part_of_the_ray_that_is_inside(share, bearing, thin, headi
         assert enter == pytest.approx(steps[inside][0], abs=0.005)
 
 
-def test_chord_of_many_rays_and_of_vertical_ones():
+def test_chord_of_many_rays_and_of_vertical_ones() -> None:
     starts = np.array(((-10.0, 0.0), (10.0, 0.0), (0.0, 0.0), (0.0, 5.0), (0.0, 0.0), (9.0, 0.0)))
     ways = np.array(((1.0, 0), (1.0, 0), (2.0, 0), (1.0, 0), (0.0, 0.0), (0.0, 0.0)))
     enter, leave = ellipse.chord(starts, ways, (0, 0), (4.0, 2.0))
@@ -182,7 +197,7 @@ def test_chord_of_many_rays_and_of_vertical_ones():
     assert np.allclose(one, (6.0, 14.0))
 
 
-def test_edge_distance_is_exact_on_axes_and_circles_and_first_order_at_the_edge():
+def test_edge_distance_is_exact_on_axes_and_circles_and_first_order_at_the_edge() -> None:
     along = np.array(((3.0, 0.0), (-9.0, 0.0), (13.0, 0.0), (0.0, 1.0), (0.0, -5.5), (0.0, 0.0)))
     assert np.allclose(ellipse.edge_distance(along, (0, 0), (10.0, 4.0)), (7, 1, -3, 3, -1.5, 4))
     points = np.random.default_rng(1).normal(size=(200, 2)) * 3.0
@@ -196,7 +211,9 @@ def test_edge_distance_is_exact_on_axes_and_circles_and_first_order_at_the_edge(
 
 
 @given(sizes, thinness, st.tuples(shares, shares), headings)
-def test_edge_distance_has_the_sign_of_inside_and_stays_finite(a, thin, share, heading):
+def test_edge_distance_has_the_sign_of_inside_and_stays_finite(
+    a: float, thin: float, share: tuple[float, float], heading: float
+) -> None:
     radii = (a, a / thin)
     point = ellipse.world(np.array(share) * radii, (0.0, 0.0), heading)
     distance = ellipse.edge_distance(point, (0, 0), radii, heading)
@@ -208,7 +225,7 @@ def test_edge_distance_has_the_sign_of_inside_and_stays_finite(a, thin, share, h
     assert radii[1] * 0.999 <= near <= a * 1.001
 
 
-def test_edge_factor_is_a_smoothstep_inside_and_nothing_outside():
+def test_edge_factor_is_a_smoothstep_inside_and_nothing_outside() -> None:
     line = np.stack((np.linspace(0.0, 30.0, 301), np.zeros(301)), axis=-1)
     factor = ellipse.edge_factor(line, (0, 0), (20.0, 15.0), 0.0, 10.0)
     assert np.all(factor[:101] == 1.0)
@@ -246,7 +263,7 @@ CALLS = [
 
 
 @pytest.mark.parametrize("call", CALLS)
-def test_bad_input_is_named(call):
+def test_bad_input_is_named(call: Callable[..., object]) -> None:
     good = {"point": (1.0, 1.0), "center": (0.0, 0.0), "radii": (2.0, 1.0), "heading": 0.0}
     call(**good)
     for radii in BAD_RADII:
@@ -262,7 +279,7 @@ def test_bad_input_is_named(call):
         call(**good | {"center": (math.nan, 0.0)})
 
 
-def test_bad_directions_and_soft_edges():
+def test_bad_directions_and_soft_edges() -> None:
     for way in [(0.0, 0.0), (math.nan, 1.0), (1.0, 0.0, 0.0)]:
         with pytest.raises(InvalidValueError):
             ellipse.line_intersections((0.0, 0.0), way, (0, 0), (2.0, 1.0))

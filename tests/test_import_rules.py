@@ -113,7 +113,7 @@ def breaches(root: Path) -> list[str]:
     return found
 
 
-def test_every_module_keeps_to_its_layer():
+def test_every_module_keeps_to_its_layer() -> None:
     assert list((ROOT / PACKAGE / "physics").glob("*.py"))  # it does look at something
     assert breaches(ROOT) == []
 
@@ -168,13 +168,13 @@ def plant(root: Path, files: dict[str, str]) -> None:
         path.write_text(text + "\n", encoding="utf-8")
 
 
-def test_the_checker_lets_good_imports_pass(tmp_path):
+def test_the_checker_lets_good_imports_pass(tmp_path: Path) -> None:
     plant(tmp_path, GOOD | {"weather_ecs/presets.py": "", "weather_ecs/components/__init__.py": ""})
     assert breaches(tmp_path) == []
 
 
 @pytest.mark.parametrize(("name", "text"), PLANTED)
-def test_the_checker_catches_a_planted_breach(tmp_path, name, text):
+def test_the_checker_catches_a_planted_breach(tmp_path: Path, name: str, text: str) -> None:
     folders = [f"weather_ecs/{part}/__init__.py" for part in ("components", "gpu", "physics")]
     plant(tmp_path, GOOD | dict.fromkeys(folders, "") | {name: text})
     found = breaches(tmp_path)

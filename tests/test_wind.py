@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import ArrayLike, NDArray
 
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics import wind
@@ -16,7 +18,9 @@ spans = st.floats(0.1, 50.0)
 coefficient = st.floats(0.1, 3.0)
 
 
-def assert_continuous(law, joints):
+def assert_continuous(
+    law: Callable[[ArrayLike], NDArray[np.float64]], joints: tuple[float, ...]
+) -> None:
     """No jump: over a step a thousand times smaller, the largest change is far smaller too."""
     for joint in joints:
         around = joint + np.linspace(-1.0, 1.0, 401) * 1e-3
@@ -30,10 +34,12 @@ def assert_continuous(law, joints):
 
 @settings(max_examples=50, deadline=None)
 @given(spans, spans, coefficient, st.floats(-0.05, 1.0), coefficient, coefficient)
-def test_gust_is_continuous_for_any_coefficients(tc, rest, a, b, c, d):
+def test_gust_is_continuous_for_any_coefficients(
+    tc: float, rest: float, a: float, b: float, c: float, d: float
+) -> None:
     end = tc + rest
 
-    def law(t):
+    def law(t: ArrayLike) -> NDArray[np.float64]:
         return wind.gust(t, tc, end, a=a, b=b, c=c, d=d)
 
     assert_continuous(law, (0.0, tc, end))
@@ -41,7 +47,7 @@ def test_gust_is_continuous_for_any_coefficients(tc, rest, a, b, c, d):
     assert np.all((strength >= 0.0) & (strength <= max(a + b, c) + 1e-12))
 
 
-def test_gust_of_the_paper_rises_peaks_and_falls_to_zero():
+def test_gust_of_the_paper_rises_peaks_and_falls_to_zero() -> None:
     t = np.linspace(0.0, 10.0, 1001)
     strength = wind.gust(t, 4.0, 10.0)
     assert np.allclose(strength[:401], t[:401] / 4.0)  # a t + b in units of tc
@@ -51,7 +57,7 @@ def test_gust_of_the_paper_rises_peaks_and_falls_to_zero():
     assert np.all(np.diff(strength[400:]) < 0.0)
 
 
-def test_gust_of_two_tc_is_the_printed_formula_with_its_sign_turned():
+def test_gust_of_two_tc_is_the_printed_formula_with_its_sign_turned() -> None:
     t = np.linspace(0.0, 6.0, 61)
     printed = np.where(t <= 3.0, t / 3.0, 1.0 - (t - 3.0) / 3.0)
     assert np.allclose(wind.gust(t, 3.0, 6.0), printed)
@@ -59,7 +65,7 @@ def test_gust_of_two_tc_is_the_printed_formula_with_its_sign_turned():
     assert np.allclose(tall, 2.0 * printed)
 
 
-def test_gust_with_a_steep_fall_is_over_early():
+def test_gust_with_a_steep_fall_is_over_early() -> None:
     assert wind.gust(5.9, 2.0, 10.0, d=2.0) > 0.0
     assert wind.gust(6.1, 2.0, 10.0, d=2.0) == 0.0
     slow = wind.gust(np.array((9.0, 9.99)), 2.0, 10.0, d=0.1)
@@ -71,10 +77,12 @@ def test_gust_with_a_steep_fall_is_over_early():
     spans, spans, spans, coefficient, st.floats(-0.05, 1.0), coefficient, coefficient,
     coefficient, coefficient,
 )  # fmt: skip
-def test_steady_is_continuous_for_any_coefficients(tc, held, rest, a, b, c, d, e, f):
+def test_steady_is_continuous_for_any_coefficients(
+    tc: float, held: float, rest: float, a: float, b: float, c: float, d: float, e: float, f: float
+) -> None:
     middle, end = tc + held, tc + held + rest
 
-    def law(t):
+    def law(t: ArrayLike) -> NDArray[np.float64]:
         return wind.steady(t, tc, middle, end, a=a, b=b, c=c, d=d, e=e, f=f)
 
     assert_continuous(law, (0.0, tc, middle, end))
@@ -83,7 +91,7 @@ def test_steady_is_continuous_for_any_coefficients(tc, held, rest, a, b, c, d, e
     assert np.all((strength >= 0.0) & (strength <= top))
 
 
-def test_steady_of_the_paper_rises_holds_and_dies():
+def test_steady_of_the_paper_rises_holds_and_dies() -> None:
     t = np.linspace(0.0, 40.0, 4001)
     strength = wind.steady(t, 2.0, 30.0, 40.0)
     rise, hold, death = t <= 2.0, (t >= 2.0) & (t <= 30.0), t >= 30.0
@@ -97,13 +105,13 @@ def test_steady_of_the_paper_rises_holds_and_dies():
     assert np.all(np.diff(strength[death]) < 0.0)
 
 
-def test_times_may_be_one_or_many():
+def test_times_may_be_one_or_many() -> None:
     assert wind.gust(1.0, 2.0, 4.0).shape == ()
     assert wind.steady(np.zeros((2, 3)), 1.0, 2.0, 3.0).shape == (2, 3)
     assert wind.steady([], 1.0, 2.0, 3.0).shape == (0,)
 
 
-def test_power_law():
+def test_power_law() -> None:
     assert wind.power_law(10.0) == 1.0
     assert wind.power_law(20.0) == pytest.approx(2.0**0.14)
     assert wind.power_law(2.0) == pytest.approx(0.7983, abs=1e-3)
@@ -135,6 +143,6 @@ def test_power_law():
         lambda: wind.power_law(1.0, exponent=-0.1),
     ],
 )
-def test_bad_input_is_named(call):
+def test_bad_input_is_named(call: Callable[..., object]) -> None:
     with pytest.raises(InvalidValueError):
         call()
