@@ -26,11 +26,6 @@ class QualitySettings:
     step_limit: int  # fixed steps that one draw may simulate
     budget: float = 1.0  # share of the drops that is used, 0.05 to 1
 
-    @property
-    def active_drops(self) -> int:
-        """Drops to move and draw in this frame."""
-        return max(1, round(self.drops * self.budget))
-
 
 LEVELS: dict[str, QualitySettings] = {
     "low": QualitySettings("low", 6_000, 2, 256, True, 2),

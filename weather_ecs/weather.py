@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
-from weakref import WeakKeyDictionary
+from weakref import WeakKeyDictionary, finalize
 
 import esper
 
@@ -19,7 +19,8 @@ from weather_ecs.quality import AutoQuality, QualitySettings, settings_for
 from weather_ecs.sampling import Sample, SampleField
 from weather_ecs.stats import Stats
 from weather_ecs.systems import ExtractSystem, WeatherProcessor, WeatherState, scheduled
-from weather_ecs.systems.queries import in_world
+from weather_ecs.systems.queries import in_world, living
+from weather_ecs.systems.rain_view import RainView
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -65,7 +66,8 @@ class Weather:
         self._context = context
         self._asked_backend = backend
         self._renderer: Renderer | None = None
-        self._renderer_seed = self._state.seed
+        self._view = RainView(self._state.seed)
+        self._view_seed = self._state.seed
         if window is not None or context is not None:
             self._renderer = self._make_renderer()
         self._backend: str = "none" if self._renderer is None else self._renderer.backend
@@ -73,6 +75,7 @@ class Weather:
         self._observer: tuple[float, float, float] | None = None  # m, of the last draw
         self._keys: WeakKeyDictionary[Observer, int] = WeakKeyDictionary()
         self._next_key = 1  # 0 is the implicit observer
+        self._retired: list[int] = []  # keys of observers that are gone
         self._field: SampleField | None = None
         self._field_frame: FrameData | None = None
         self._frame_start: float | None = None  # s, of the first draw since esper.process
@@ -186,8 +189,9 @@ class Weather:
         camera = camera_from(view, projection)
         frame = self._frame()
         self._begin_frame(started)
+        settings = self._auto.settings() if self.quality == "auto" else self._settings
         renderer = self._ready_renderer()
-        renderer.draw(frame, camera, self._key(observer), self._draw_settings())
+        renderer.draw(self._view.view(frame, camera, self._key(observer), settings), settings)
         self._observer = camera.position
         self._stats.count(renderer.stats)
         self._gpu_ms += float(renderer.stats.get("gpu_ms", 0.0))
@@ -207,13 +211,16 @@ class Weather:
         return Renderer(context, backend=self._asked_backend, seed=self._state.seed)
 
     def _ready_renderer(self) -> Renderer:
-        """The renderer; made anew where a snapshot has brought another seed."""
-        if self._renderer is not None and self._renderer_seed != self._state.seed:
+        """The renderer; made anew, with the view, where a snapshot has brought another seed."""
+        if self._renderer is not None and self._view_seed != self._state.seed:
             self._renderer.release()
             self._renderer = None
         if self._renderer is None:
             self._renderer = self._make_renderer()
-            self._renderer_seed = self._state.seed
+            self._view = RainView(self._state.seed)
+            self._view_seed = self._state.seed
+        while self._retired:
+            self._view.forget(self._retired.pop())
         return self._renderer
 
     def _key(self, observer: Observer | None) -> int:
@@ -223,10 +230,8 @@ class Weather:
         if key is None:
             key = self._keys[observer] = self._next_key
             self._next_key += 1
+            finalize(observer, self._retired.append, key).atexit = False
         return key
-
-    def _draw_settings(self) -> QualitySettings:
-        return self._auto.settings() if self._settings.name == "auto" else self._settings
 
     def _begin_frame(self, now: float) -> None:
         """At the first draw after `esper.process`: teach the automatic quality the last frame."""
@@ -303,12 +308,8 @@ class Weather:
     def _first_observer(self) -> tuple[float, float, float]:
         """Where nothing has been drawn yet: the oldest observer, or the origin."""
         with in_world(self._world):
-            pairs = esper.get_component(Observer)
-            return min(pairs, key=_entity)[1].position if pairs else (0.0, 0.0, 0.0)
-
-
-def _entity(pair: tuple[int, object]) -> int:
-    return pair[0]
+            pairs = living(Observer)
+            return pairs[0][1].position if pairs else (0.0, 0.0, 0.0)
 
 
 def _can_be_drawn_to(window: Any) -> bool:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from weather_ecs.components._base import Check, Component, _set, flag, integer
+from weather_ecs.components._base import FAR, Check, Component, _set, flag, integer
 from weather_ecs.errors import InvalidValueError
 
 _VERTICES = "a finite array of shape (n, 3), n >= 3, within 1e7"
@@ -25,7 +25,7 @@ def _vertices(name: str, value: Any) -> NDArray[np.float32]:
         array = np.asarray(value)
         if array.dtype.kind not in "iuf" or array.ndim != 2 or array.shape[1] != 3:
             raise ValueError
-        if len(array) < 3 or not np.all(np.abs(array) <= 1e7):
+        if len(array) < 3 or not np.all(np.abs(array) <= FAR):
             raise ValueError
     except (TypeError, ValueError):
         raise InvalidValueError(name, value, _VERTICES) from None
@@ -64,8 +64,10 @@ def _transform(name: str, value: Any) -> NDArray[np.float64]:
     (a, b, c, x), (d, e, f, y), (g, h, i, z), last = result.tolist()
     volume = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
     size = max(map(abs, (a, b, c, d, e, f, g, h, i)))
-    # written so that NaN fails too; the volume is judged against the matrix's own scale
-    if not (abs(volume) > 1e-9 * size**3 and size <= 1e7 and max(abs(x), abs(y), abs(z)) <= 1e7):
+    # The volume is judged against the matrix's own scale. All comparisons are false for NaN.
+    if not (size <= FAR and abs(volume) > 1e-9 * size * size * size):
+        raise InvalidValueError(name, value, _TRANSFORM)
+    if not (abs(x) <= FAR and abs(y) <= FAR and abs(z) <= FAR):
         raise InvalidValueError(name, value, _TRANSFORM)
     if last != [0.0, 0.0, 0.0, 1.0]:
         raise InvalidValueError(name, value, _TRANSFORM)

@@ -17,12 +17,12 @@ class RainContainer(Component):
 
     reach: float = 40.0  # m, 2 to 500, semi-axis of the container around the observer
     height: float = 24.0  # m, 2 to 500, of that container
-    margin: float = 1.5  # m, 0 to 100, movement of the observer that leaves it where it is
-    size_maximum: float = 4.0  # 1 to 50, growth of a drop at the container's rim (Eq. 3)
-    exposure: float = 1.0 / 40.0  # s, 1e-4 to 1, of fall that a streak shows
-    width: float = 1.0  # 0.05 to 20, factor on the drop's diameter
-    opacity: float = 0.55  # 0 to 1, greatest opacity of one streak
-    veil: float = 1.0  # 0 to 10, factor on the extinction of the rain beyond the container
+    margin: float = 0.75  # m, 0 to 100, movement of the observer that leaves it where it is
+    size_maximum: float = 6.0  # 1 to 50, growth of a drop at the container's rim (Eq. 3)
+    exposure: float = 1.0 / 30.0  # s, 1e-4 to 1, of fall that a streak shows
+    width: float = 5.0  # 0.05 to 20, factor on the drop's diameter
+    opacity: float = 0.7  # 0 to 1, greatest opacity of one streak
+    veil: float = 2.5  # 0 to 10, factor on the extinction of the rain beyond the container
 
     checks: ClassVar[dict[str, Check]] = {
         "reach": number(2.0, 500.0),

@@ -11,7 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.components import PointLight, RainArea, RainContainer, Sun, Wind
-from weather_ecs.frame import AREA_DTYPE, LIGHT_DTYPE, DropLook, FrameData, SkyLight, empty
+from weather_ecs.frame import (
+    AREA_DTYPE,
+    LIGHT_DTYPE,
+    DropLook,
+    FrameData,
+    OccluderData,
+    SkyLight,
+    empty,
+)
+from weather_ecs.systems.occluders import OccluderList
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.rain_area import drift_velocity
 from weather_ecs.systems.state import WeatherState
@@ -39,6 +48,7 @@ class ExtractSystem:
         self._still: NDArray = _NO_AREAS  # the areas where the last fixed step left them
         self._velocity: NDArray | None = None  # (n, 2), m/s; None where all stand still
         self._parts: tuple[NDArray, tuple[float, float, float], SkyLight, DropLook]
+        self._occluders = OccluderList()
         self._time = -1.0
 
     def run(self, state: WeatherState) -> None:
@@ -57,20 +67,22 @@ class ExtractSystem:
         ):
             self._rebuild(state)
             self._lists, self._revisions = lists, revisions
-        elif self._time == state.clock.time:
-            return self._frame
-        self._time = state.clock.time
-        self._frame = self._at_time(state)
-        return self._frame
+            self._frame = None
+        occluders = self._occluders.collect()
+        frame, time = self._frame, state.clock.time
+        if frame is None or time != self._time or occluders is not frame.occluders:
+            self._time = time
+            self._frame = frame = self._at_time(state, occluders)
+        return frame
 
-    def _at_time(self, state: WeatherState) -> FrameData:
+    def _at_time(self, state: WeatherState, occluders: tuple[OccluderData, ...]) -> FrameData:
         """The parts at the clock's time: moving areas are carried on by the remainder."""
-        areas, parts, clock = self._still, self._parts, state.clock
+        areas, clock = self._still, state.clock
         if self._velocity is not None and clock.remainder > 0.0:
             areas = areas.copy()
             areas["center"] += self._velocity * clock.remainder
             areas.setflags(write=False)
-        return FrameData(clock.time, clock.steps, areas, *parts)
+        return FrameData(clock.time, clock.steps, areas, *self._parts, occluders)
 
     def _rebuild(self, state: WeatherState) -> None:
         wind = total_wind(state)

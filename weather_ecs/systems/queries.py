@@ -22,11 +22,19 @@ def alive(component_type: type[C], uids: Uids) -> list[tuple[int, C]]:
     exists, current = esper.entity_exists, uids.current()
     found = [(current[entity], component) for entity, component in pairs if exists(entity)]
     if len(found) > 1:
-        found.sort(key=_uid)
+        found.sort(key=_first)
     return found
 
 
-def _uid(pair: tuple[int, object]) -> int:
+def living(component_type: type[C]) -> list[tuple[int, C]]:
+    """(entity, component) sorted by entity, for what has no uid: the game's own things."""
+    exists = esper.entity_exists
+    pairs = [pair for pair in esper.get_component(component_type) if exists(pair[0])]
+    pairs.sort(key=_first)
+    return pairs
+
+
+def _first(pair: tuple[int, object]) -> int:
     return pair[0]
 
 

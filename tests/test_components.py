@@ -1,0 +1,222 @@
+"""Components: every field is checked, when made and when set."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import math
+import subprocess
+import sys
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import weather_ecs.components as components
+from weather_ecs.components import (
+    SNAPSHOT_COMPONENTS,
+    Observer,
+    Occluder,
+    PointLight,
+    RainArea,
+    RainContainer,
+    Sun,
+    Wind,
+)
+from weather_ecs.errors import InvalidValueError
+from weather_ecs.frame import DropLook, SkyLight
+
+NAN, INF = math.nan, math.inf
+NOT_NUMBERS = [NAN, INF, -INF, None, "5", True, np.bool_(True), 1j, [1.0], np.ones(1), 10**400]
+
+
+def area() -> RainArea:
+    return RainArea((0, 0), (60, 40))
+
+
+def make(kind: type) -> object:
+    return area() if kind is RainArea else kind()
+
+
+CASES = [
+    (RainArea, "center", [(1, 2), [1, 2], np.array([1.0, 2.0]), np.array([1, 2], np.int32)]),
+    (RainArea, "radii", [(5, 5), (60.0, 40.0), np.array([9, 1])]),
+    (RainArea, "rain_rate", [0, 25.0, np.float32(3.0), np.int64(7), Fraction(1, 2)]),
+    (RainArea, "heading", [-7.0, 0, 1e6]),
+    (RainArea, "soft_edge", [0, 1e5]),
+    (RainArea, "ceiling", [-5, 3000]),
+    (RainArea, "velocity", [(150, -150)]),
+    (RainArea, "drift", [0, 1, 0.5]),
+    (RainContainer, "reach", [2, 500]),
+    (RainContainer, "height", [2, 500]),
+    (RainContainer, "margin", [0, 100]),
+    (RainContainer, "size_maximum", [1, 50]),
+    (RainContainer, "exposure", [1e-4, 1]),
+    (RainContainer, "width", [0.05, 20]),
+    (RainContainer, "opacity", [0, 1]),
+    (RainContainer, "veil", [0, 10]),
+    (Wind, "direction", [(0, 3), [-1e-200, 0], np.array([1e308, 1e308])]),
+    (Wind, "speed", [0, 150]),
+    (Sun, "direction", [(0, -1, 0)]),
+    (Sun, "color", [(0, 0, 0), (1000, 0.5, 3)]),
+    (Sun, "zenith_color", [(0, 0, 0)]),
+    (Sun, "horizon_color", [(0, 0, 0)]),
+    (Sun, "ground_color", [(0, 0, 0)]),
+    (PointLight, "position", [(1, 2, 3)]),
+    (PointLight, "color", [(1e6, 0, 0)]),
+    (PointLight, "reach", [1e-3, 1e4]),
+    (Observer, "position", [(-1e7, 0, 1e7), np.arange(3)]),
+]
+BAD = [
+    (RainArea, "center", [(1,), (1, 2, 3), (1e8, 0), "ab", {1, 2}, np.ones((2, 1)), 3]),
+    (RainArea, "radii", [(0, 0), (10, 0), (-3, -4), (40, 60), (1e7, 1), (60,), (5, -1)]),
+    (RainArea, "rain_rate", [-1e-9, 10001]),
+    (RainArea, "soft_edge", [-0.1]),
+    (RainArea, "ceiling", [2e5]),
+    (RainArea, "velocity", [(151, 0), (0,)]),
+    (RainArea, "drift", [-0.1, 1.1]),
+    (RainContainer, "reach", [0, -1, 501]),
+    (RainContainer, "height", [0]),
+    (RainContainer, "margin", [-1]),
+    (RainContainer, "size_maximum", [0.5]),
+    (RainContainer, "exposure", [0]),
+    (RainContainer, "width", [0]),
+    (RainContainer, "opacity", [1.5]),
+    (RainContainer, "veil", [-1]),
+    (Wind, "direction", [(0, 0), (1, 0, 0), (-0.0, 0.0)]),
+    (Wind, "speed", [-1, 151]),
+    (Sun, "direction", [(0, 0, 0), (1, 0)]),
+    (Sun, "color", [(-1, 0, 0), (1001, 0, 0), (1, 1)]),
+    (PointLight, "reach", [0, -1, 1e5]),
+    (PointLight, "color", [(0, 0, -1)]),
+    (Observer, "position", [(1, 2), (1e8, 0, 0)]),
+]
+
+
+@pytest.mark.parametrize(("kind", "name", "values"), CASES)
+def test_good_values_are_kept_as_plain_floats(kind, name, values):
+    for value in values:
+        component = make(kind)
+        setattr(component, name, value)
+        got = getattr(component, name)
+        if isinstance(got, tuple):
+            assert all(type(item) is float for item in got)
+        else:
+            assert type(got) is float
+            assert got == pytest.approx(float(value))
+
+
+@pytest.mark.parametrize(("kind", "name", "values"), BAD)
+def test_bad_values_name_the_field_and_change_nothing(kind, name, values):
+    component = make(kind)
+    before = getattr(component, name)
+    size = len(before) if isinstance(before, tuple) else 0
+    odd = [(bad,) + before[1:] for bad in NOT_NUMBERS] if size else NOT_NUMBERS
+    for value in [*values, *odd, None, "x" * size]:
+        with pytest.raises(InvalidValueError) as caught:
+            setattr(component, name, value)
+        assert caught.value.field == f"{kind.__name__}.{name}"
+        assert name in str(caught.value)
+        assert "allowed" in str(caught.value)
+        assert getattr(component, name) is before
+        arguments = {"center": (0, 0), "radii": (2, 1)} if kind is RainArea else {}
+        with pytest.raises(ValueError, match=name):
+            kind(**{**arguments, name: value})
+
+
+def test_every_field_of_every_component_is_among_the_cases():
+    tried = {(kind, name) for kind, name, _ in CASES}
+    for kind in (*SNAPSHOT_COMPONENTS.values(), Observer):
+        for field in dataclasses.fields(kind):
+            assert (kind, field.name) in tried
+
+
+def test_defaults_are_those_of_the_frame():
+    look, container = DropLook(), RainContainer()
+    for field in dataclasses.fields(DropLook):
+        assert getattr(container, field.name) == getattr(look, field.name)
+    assert [f.name for f in dataclasses.fields(RainContainer)] == [
+        f.name for f in dataclasses.fields(DropLook)
+    ]
+    sky, sun = SkyLight(), Sun()
+    for field in dataclasses.fields(Sun):
+        name = field.name if field.name.endswith("r") and "_" in field.name else f"sun_{field.name}"
+        assert getattr(sun, field.name) == pytest.approx(getattr(sky, name), rel=5e-3)
+
+
+def test_misspelt_fields_and_deletion_are_refused():
+    it = area()
+    with pytest.raises(AttributeError, match="rain_rat"):
+        it.rain_rat = 5.0
+    with pytest.raises(AttributeError):
+        del it.rain_rate
+    assert it.rain_rate == 5.0
+
+
+def test_equal_components_stay_two():
+    one, other = area(), area()
+    assert one != other
+    assert len({one, other}) == 2
+
+
+def test_copies_are_checked_too():
+    it = copy.copy(area())
+    with pytest.raises(InvalidValueError):
+        it.radii = (1, 2)
+    assert it.radii == (60.0, 40.0)
+
+
+def test_a_revision_counts_assignments_of_its_own_class():
+    it, before = area(), RainArea.revision()
+    it.rain_rate = 7
+    assert RainArea.revision() == before + 1
+    Wind().speed = 3.0
+    with pytest.raises(InvalidValueError):
+        it.rain_rate = -1
+    assert RainArea.revision() == before + 1
+
+    class Shower(RainArea):
+        pass
+
+    Shower((0, 0), (2, 1))
+    assert RainArea.revision() > before + 1
+
+
+vectors = st.tuples(*[st.floats(-1e308, 1e308)] * 3).filter(any)
+
+
+@given(vectors)
+def test_directions_have_length_one_and_a_second_pass_changes_nothing(vector):
+    once = Sun(direction=vector).direction
+    assert math.hypot(*once) == pytest.approx(1.0, abs=1e-12)
+    assert Sun(direction=once).direction == once
+    greatest = max(map(abs, vector))
+    scaled = np.array(vector) / greatest
+    assert once == pytest.approx(scaled / np.linalg.norm(scaled), abs=1e-12)
+
+
+@given(st.floats(), st.floats())
+def test_radii_are_taken_exactly_when_they_are_an_ellipse(a, b):
+    good = math.isfinite(a) and math.isfinite(b) and 1e6 >= a >= b >= 1e-3
+    if good:
+        assert RainArea((0, 0), (a, b)).radii == (a, b)
+    else:
+        with pytest.raises(InvalidValueError):
+            RainArea((0, 0), (a, b))
+
+
+def test_components_load_without_esper_and_without_opengl():
+    program = (
+        "import sys, types, importlib.util as u, os;"
+        "p = types.ModuleType('weather_ecs'); p.__path__ = [os.path.join(os.getcwd(), 'weather_ecs')];"
+        "sys.modules['weather_ecs'] = p; import weather_ecs.components;"
+        "assert not {'esper', 'moderngl', 'pyglet'} & set(sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
+
+
+def test_what_is_exported_exists():
+    for name in components.__all__:
+        assert hasattr(components, name)

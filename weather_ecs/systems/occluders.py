@@ -1,0 +1,55 @@
+"""`OccluderList`: the occluders as the GPU is told of them."""
+
+from __future__ import annotations
+
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import esper
+
+from weather_ecs.components import Occluder
+from weather_ecs.frame import OccluderData
+from weather_ecs.systems.queries import living
+
+
+class OccluderList:
+    """One `OccluderData` for each occluder, made again only when that occluder has changed."""
+
+    def __init__(self) -> None:
+        self._known: WeakKeyDictionary[Occluder, OccluderData] = WeakKeyDictionary()
+        self._next_key = 0
+        self._list: list[Any] | None = None
+        self._revision = -1
+        self._data: tuple[OccluderData, ...] = ()
+
+    def collect(self) -> tuple[OccluderData, ...]:
+        """The living occluders; the same tuple as before where nothing has changed."""
+        pairs, revision = esper.get_component(Occluder), Occluder.revision()
+        if pairs is not self._list or revision != self._revision:
+            self._list, self._revision = pairs, revision
+            self._data = tuple([self._of(occluder) for _, occluder in living(Occluder)])
+        return self._data
+
+    def _of(self, occluder: Occluder) -> OccluderData:
+        known = self._known.get(occluder)
+        if (
+            known is not None
+            and known.transform is occluder.transform
+            and known.vertices is occluder.vertices
+            and known.indices is occluder.indices
+            and known.dynamic is occluder.dynamic
+            and known.draw is occluder.draw
+        ):
+            return known
+        key = self._next_key if known is None else known.key
+        self._next_key += known is None
+        assert occluder.transform is not None  # the component makes None the identity
+        data = self._known[occluder] = OccluderData(
+            key,
+            occluder.transform,
+            occluder.dynamic,
+            occluder.vertices,
+            occluder.indices,
+            occluder.draw,
+        )
+        return data
