@@ -6,6 +6,7 @@ OpenGL names in it.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -55,12 +56,24 @@ class DropLook:
 
     reach: float = 40.0  # m, semi-axis of the near container
     height: float = 24.0  # m, of the near container
-    margin: float = 1.5  # m, observer's movement that leaves the container where it is
-    size_maximum: float = 4.0  # Eq. 3's factor at the container's rim
-    exposure: float = 1.0 / 40.0  # s, length of the path a streak shows
-    width: float = 1.0  # factor on the drop's diameter, look only
-    opacity: float = 0.55  # greatest opacity of one streak
-    veil: float = 1.0  # factor on the veil's extinction, look only
+    margin: float = 0.75  # m, observer's movement that leaves the container where it is
+    size_maximum: float = 6.0  # Eq. 3's factor at the container's rim
+    exposure: float = 1.0 / 30.0  # s, length of the path a streak shows
+    width: float = 5.0  # factor on the drop's diameter, look only
+    opacity: float = 0.7  # greatest opacity of one streak
+    veil: float = 2.5  # factor on the veil's extinction, look only
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OccluderData:
+    """Something rain can hit: a mesh with its place, or a callback that draws it."""
+
+    key: int  # stable for the life of the occluder; only ever compared
+    transform: NDArray  # (4, 4) float64, mesh to world; a new array whenever it has moved
+    dynamic: bool  # drawn at every capture instead of into the cached layer
+    vertices: NDArray | None = None  # (n, 3) float32, m; a new array whenever the mesh changes
+    indices: NDArray | None = None  # (3 t,) uint32
+    draw: Callable[[NDArray], None] | None = None  # called with a view-projection matrix
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,3 +87,46 @@ class FrameData:
     wind: tuple[float, float, float] = (0.0, 0.0, 0.0)  # m/s
     sky: SkyLight = field(default_factory=SkyLight)
     look: DropLook = field(default_factory=DropLook)
+    occluders: tuple[OccluderData, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ContainerData:
+    """A placed container and the drops it holds; see `physics.container` and `shaders/`."""
+
+    key: int  # stable for an area as one observer sees it; only ever compared
+    axis: tuple[float, float, float, float]  # centre x, centre z, cos heading, sin heading
+    shape: tuple[float, float, float, float]  # forward, lateral reach, bottom, height, m
+    area_axis: tuple[float, float, float, float]
+    area_shape: tuple[float, float, float, float]  # a, b, soft edge, ceiling, m
+    law: tuple[float, float, float, float]  # of the diameters: slope, exp(-0.5 s), exp(-6 s), 0
+    load: float  # real drops that one drop stands for, over d / weight_shape(d)
+    count: float  # drops in use
+    size_scale: float  # 1 near, more for far rain
+    births: NDArray  # (n, 4) float32, n >= count: original position, own reach, size quantile
+
+
+@dataclass(frozen=True, slots=True)
+class VeilData:
+    """The rain of one area beyond what its drops show."""
+
+    axis: tuple[float, float, float, float]
+    shape: tuple[float, float, float]  # a, b, the level of f inside which the rate is full
+    span: tuple[float, float]  # bottom, top, m
+    extinction: float  # 1/m
+    shown: float  # m, the distance at which the drops' share of it has fallen to 0
+
+
+@dataclass(frozen=True, slots=True)
+class ViewData:
+    """One frame's weather for one camera."""
+
+    frame: FrameData
+    key: int  # of the observer; only ever compared
+    view: NDArray  # (4, 4) float64
+    projection: NDArray  # (4, 4) float64
+    position: tuple[float, float, float]
+    velocity: tuple[float, float, float]  # m/s, of the observer
+    dt: float  # s, weather time since this observer's last view
+    containers: tuple[ContainerData, ...]
+    veils: tuple[VeilData, ...]

@@ -1,0 +1,185 @@
+"""The collision heightmap: the depth of the scene as the rain sees it (seed 001, 3.2.1).
+
+The map lies level, in world axes, and looks along the mean fall direction by shearing: a point is
+carried along its fall to the height 0 of the world, and where it arrives is its place in the map.
+So a roof casts a slanted rain shadow in wind, and a map that is moved by whole texels shows every
+surface at the same texels as before: nothing crawls.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.frame import OccluderData
+from weather_ecs.gpu.occluder_meshes import OccluderMeshes
+
+_log = logging.getLogger("weather_ecs")
+
+# The wind is rounded to this slope, so that its small changes do not call for a new capture.
+_SLOPE_STEP = 0.02
+_STEEPEST = 4.0
+_ABOVE, _BELOW = 120.0, 80.0  # m of height that the map can tell apart, about the observer
+
+
+@dataclass(frozen=True, slots=True)
+class Footprint:
+    """What a map covers: its centre carried to height 0, half-size, fall slope and heights."""
+
+    center: tuple[float, float]  # m, (x, z) at height 0
+    half: float  # m
+    slope: tuple[float, float]  # horizontal metres per metre of fall
+    bottom: float
+    top: float
+
+    def matrix(self) -> NDArray[np.float64]:
+        """World to (u, v, depth) in [0, 1], (4, 4); depth 0 at the top."""
+        scale = 0.5 / self.half
+        drop = 1.0 / (self.bottom - self.top)
+        (cx, cz), (sx, sz) = self.center, self.slope
+        return np.array(
+            [
+                [scale, scale * sx, 0.0, 0.5 - scale * cx],
+                [0.0, scale * sz, scale, 0.5 - scale * cz],
+                [0.0, drop, 0.0, -drop * self.top],
+                [0.0, 0.0, 0.0, 1.0],
+            ]
+        )
+
+
+def footprint(
+    position: tuple[float, float, float],
+    reach: float,
+    wind: tuple[float, float, float],
+    fall_speed: float,
+    size: int,
+    before: Footprint | None,
+) -> Footprint:
+    """What the map should cover for an observer; `before` where that still serves.
+
+    The half-size leaves room to move; the centre is a whole number of texels.
+    """
+    slope = (_slope(wind[0], fall_speed), _slope(wind[2], fall_speed))
+    x, y, z = position
+    center = (x + y * slope[0], z + y * slope[1])
+    half = 1.25 * reach
+    if before is not None and before.slope == slope and before.half == half:
+        moved = max(abs(center[0] - before.center[0]), abs(center[1] - before.center[1]))
+        if moved <= 0.2 * reach and abs(y - 0.5 * (before.top + before.bottom)) <= 40.0:
+            return before
+    texel = 2.0 * half / size
+    snapped = (round(center[0] / texel) * texel, round(center[1] / texel) * texel)
+    middle = round(y / 10.0) * 10.0
+    return Footprint(snapped, half, slope, middle - _BELOW, middle + _ABOVE)
+
+
+def _slope(wind: float, fall_speed: float) -> float:
+    slope = round(wind / fall_speed / _SLOPE_STEP) * _SLOPE_STEP
+    return min(max(slope, -_STEEPEST), _STEEPEST)
+
+
+class Heightmap:
+    """Depth of one observer's surroundings: a cached static layer, and dynamic occluders over it."""
+
+    def __init__(self, ctx: moderngl.Context, meshes: OccluderMeshes, size: int) -> None:
+        self._ctx = ctx
+        self._meshes = meshes
+        self.size = size
+        self.footprint: Footprint | None = None
+        self.captures = 0  # of the dynamic layer
+        self.static_captures = 0
+        self._static, self._static_target = self._layer()
+        self.texture, self._target = self._layer()
+        self._static_seen: tuple[tuple[int, int], ...] | None = None
+        self._dynamic_seen: tuple[tuple[int, int], ...] | None = None
+        self._broken: set[int] = set()
+
+    def _layer(self) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
+        texture = self._ctx.depth_texture((self.size, self.size))
+        texture.compare_func = ""
+        texture.filter = moderngl.NEAREST, moderngl.NEAREST
+        texture.repeat_x = texture.repeat_y = False
+        return texture, self._ctx.framebuffer([], texture)
+
+    def capture(
+        self,
+        occluders: tuple[OccluderData, ...],
+        position: tuple[float, float, float],
+        reach: float,
+        wind: tuple[float, float, float],
+        fall_speed: float,
+    ) -> bool:
+        """Bring the map up to date; draws only what has changed. True if anything was drawn.
+
+        Leaves the bound framebuffer, depth test, mask and culling changed: the caller restores.
+        """
+        place = footprint(position, reach, wind, fall_speed, self.size, self.footprint)
+        still = [o for o in occluders if not o.dynamic and o.key not in self._broken]
+        moving = [o for o in occluders if o.dynamic and o.key not in self._broken]
+        # Arrays are compared by identity: a changed mesh or place comes as a new array. They are
+        # kept by the meshes and by this frame, so an identity is not used twice unnoticed.
+        static_seen = tuple((o.key, id(o.transform) ^ id(o.vertices)) for o in still)
+        dynamic_seen = tuple((o.key, id(o.transform) ^ id(o.vertices)) for o in moving)
+        fresh = place != self.footprint or static_seen != self._static_seen
+        callbacks = any(o.draw is not None for o in moving)
+        if not fresh and dynamic_seen == self._dynamic_seen and not callbacks:
+            return False
+        self.footprint = place
+        self._ctx.enable_only(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "<="
+        if fresh:
+            self._static_target.use()
+            self._static_target.clear(depth=1.0)
+            self._draw(still, place)
+            self._static_seen = static_seen
+            self.static_captures += 1
+        self._ctx.copy_framebuffer(self._target, self._static_target)
+        self._target.use()
+        self._draw(moving, place)
+        self._dynamic_seen = dynamic_seen
+        self._kept = (still, moving)
+        self.captures += 1
+        return True
+
+    def _draw(self, occluders: list[OccluderData], place: Footprint) -> None:
+        # From [0, 1] to clip space, where the depth runs the same way.
+        clip = np.array(
+            [[2.0, 0, 0, -1.0], [0, 2.0, 0, -1.0], [0, 0, 2.0, -1.0], [0, 0, 0, 1.0]]
+        )
+        to_map = clip @ place.matrix()
+        for occluder in occluders:
+            if occluder.draw is None:
+                self._meshes.draw(occluder, to_map)
+                continue
+            try:
+                occluder.draw(to_map.copy())
+            except Exception:
+                # The game's own code: named, left out from here on, and the frame goes on.
+                self._broken.add(occluder.key)
+                _log.exception("occluder %r failed and is left out", occluder.draw)
+
+    @property
+    def bias(self) -> float:
+        """Depth by which a drop may lie under the surface: a texel's height on a 45 degree slope."""
+        assert self.footprint is not None
+        texel = 2.0 * self.footprint.half / self.size
+        return max(texel, 0.1) / (self.footprint.top - self.footprint.bottom)
+
+    def release(self) -> None:
+        """Give everything back; twice does no harm."""
+        for thing in (self._target, self.texture, self._static_target, self._static):
+            thing.release()
+
+
+def fall_speed_of(rain_rate: float) -> float:
+    """Speed in m/s that stands for a rain's mean fall: that of its drop of median water volume.
+
+    Marshall and Palmer's median volume diameter is 3.67 / slope.
+    """
+    slope = 4.1 * max(rain_rate, 0.1) ** -0.21
+    return 9.65 - 10.3 * math.exp(-0.6 * max(3.67 / slope, 0.5))

@@ -1,0 +1,68 @@
+"""The uniform blocks of the rain: declared here once, used by numpy and by GLSL."""
+
+from __future__ import annotations
+
+from weather_ecs.gpu.blocks import UniformBlock
+
+MAX_LIGHTS = 8
+
+# One step of a container's drops; physics/rain_step.Step field for field.
+RAIN_STEP = UniformBlock(
+    "RainStep",
+    ("from_axis", "vec4"),  # centre x, centre z, cos heading, sin heading
+    ("from_shape", "vec4"),  # forward reach, lateral reach, bottom, height
+    ("to_axis", "vec4"),
+    ("to_shape", "vec4"),
+    ("rain_wind", "vec4"),  # m/s, and the step in s
+    ("rain_law", "vec4"),
+    ("rain_seed", "uint"),
+    ("rain_count", "uint"),
+    ("rain_fresh", "uint"),  # drops from here on begin anew
+)
+
+# The camera and the light, the same for all that is drawn in one view.
+RAIN_VIEW = UniformBlock(
+    "RainView",
+    ("view_projection", "mat4"),
+    ("camera_position", "vec4"),  # m, and pixels per unit of width over depth
+    ("camera_velocity", "vec4"),  # m/s, and the exposure in s
+    ("camera_forward", "vec4"),  # unit
+    ("view_size", "vec4"),  # pixels, width and height; depth of the near and far plane
+    ("view_origin", "vec4"),  # pixels, lower left corner of the viewport
+    ("view_depth", "vec4"),  # depth = y / (ndc + x)
+    ("sun_direction", "vec4"),
+    ("sun_color", "vec4"),
+    ("drop_color", "vec4"),  # what a drop shows of the sky, linear
+    ("veil_color", "vec4"),  # encoded
+    ("light_position", "vec4", MAX_LIGHTS),  # m, and reach
+    ("light_color", "vec4", MAX_LIGHTS),
+    ("light_count", "int"),
+)
+
+# One container's drops as they are drawn.
+RAIN_DRAW = UniformBlock(
+    "RainDraw",
+    ("container_axis", "vec4"),
+    ("container_shape", "vec4"),
+    ("area_axis", "vec4"),
+    ("area_shape", "vec4"),  # a, b, soft edge, ceiling
+    ("drop_law", "vec4"),
+    ("drop_load", "vec4"),  # load, count, 1 / width of the count's fade
+    ("drop_look", "vec4"),  # Eq. 3's maximum, size scale, width, opacity
+)
+
+# One area's veil.
+VEIL = UniformBlock(
+    "Veil",
+    ("veil_axis", "vec4"),
+    ("veil_shape", "vec4"),  # a, b, level of f inside which the rate is full
+    ("veil_span", "vec4"),  # bottom, top
+    ("veil_load", "vec4"),  # extinction in 1/m, distance to which the drops show it in m
+)
+
+# The collision heightmap of one observer.
+SHELTER = UniformBlock(
+    "Shelter",
+    ("shelter_matrix", "mat4"),  # world to (u, v, depth) in [0, 1]
+    ("shelter_bias", "vec4"),  # in units of that depth
+)

@@ -1,0 +1,167 @@
+"""`Renderer`: everything that is drawn, in its order, as a guest in the host's framebuffer."""
+
+from __future__ import annotations
+
+import logging
+from typing import Protocol
+
+import moderngl
+
+from weather_ecs.errors import ContextError, InvalidValueError
+from weather_ecs.frame import ViewData
+from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.context import probe
+from weather_ecs.gpu.depth import DepthCopy
+from weather_ecs.gpu.gl import GL
+from weather_ecs.gpu.guard import StateGuard
+from weather_ecs.gpu.heightmap import Heightmap, fall_speed_of
+from weather_ecs.gpu.occluder_meshes import OccluderMeshes
+from weather_ecs.gpu.rain_blocks import RAIN_VIEW, SHELTER
+from weather_ecs.gpu.rain_pass import RainPass
+from weather_ecs.gpu.shader_loader import ShaderLoader
+from weather_ecs.gpu.timer import GpuTimer, PrimitiveCounter
+from weather_ecs.gpu.veil_pass import VeilPass
+from weather_ecs.gpu.view_block import fill_view
+
+_log = logging.getLogger("weather_ecs")
+
+SHELTER_UNIT = 1
+
+
+class Settings(Protocol):
+    """What the renderer needs of the quality settings."""
+
+    @property
+    def heightmap_size(self) -> int: ...
+
+
+class Renderer:
+    """Owns every OpenGL object of a weather; `backend` is asked as auto, compute or feedback.
+
+    Raises ContextError where the asked backend is not to be had.
+    """
+
+    def __init__(self, ctx: moderngl.Context, *, backend: str = "auto", seed: int = 0) -> None:
+        self._ctx = ctx
+        capabilities = probe(ctx)
+        if backend not in ("auto", "compute", "feedback"):
+            raise InvalidValueError("backend", backend, "auto, compute, feedback")
+        if backend == "compute" and not capabilities.compute:
+            raise ContextError(
+                "backend 'compute' needs OpenGL 4.3, this context has "
+                f"{capabilities.version // 100}.{capabilities.version // 10 % 10}"
+            )
+        if backend == "auto":
+            backend = "compute" if capabilities.compute else "feedback"
+        self.backend: str = backend
+        self.stats: dict[str, int | float] = {}
+        self._gl = GL()
+        self._guard = StateGuard(ctx, self._gl)
+        self._shaders = ShaderLoader(ctx)
+        self._rain = RainPass(ctx, self._shaders, backend=backend, seed=seed)
+        self._veil = VeilPass(ctx, self._shaders)
+        self._view_block = BlockBuffer(ctx, RAIN_VIEW)
+        self._shelter_block = BlockBuffer(ctx, SHELTER)
+        self._depth = DepthCopy(ctx, self._gl)
+        self._meshes = OccluderMeshes(ctx, self._shaders)
+        self._maps: dict[int, Heightmap] = {}
+        self._timer = GpuTimer(self._gl)
+        self._counter = PrimitiveCounter(self._gl)
+        self._released = False
+
+    @property
+    def rain(self) -> RainPass:
+        """The drops; for tests and benchmarks."""
+        return self._rain
+
+    def heightmap(self, key: int = 0) -> Heightmap | None:
+        """The collision heightmap of an observer, if there is one yet."""
+        return self._maps.get(key)
+
+    def draw(self, view: ViewData, settings: Settings) -> None:
+        """Moves the drops by `view.dt` and draws the view into what the host has bound.
+
+        Raises ContextError where the context is not current or the renderer was released.
+        """
+        if self._released:
+            raise ContextError("the renderer was released")
+        with self._guard as guard:
+            viewport = guard.viewport
+            if viewport[2] <= 0 or viewport[3] <= 0:
+                return
+            self._timer.begin()
+            moved = offered = 0
+            if view.containers or view.veils:
+                fill_view(self._view_block, view, viewport)
+                self._view_block.upload()
+                self._view_block.bind()
+                sheltered = self._capture(view, settings)
+                moved = self._rain.update(view)
+                guard.bind_framebuffer()
+                self._draw_veils(view)
+                offered = self._draw_drops(view, sheltered)
+            self._timer.end()
+        self.stats = {
+            "drops_moved": moved,
+            "drops_drawn": (self._counter.latest or 0) // 2 if offered else 0,
+            "containers": len(view.containers),
+            "gpu_ms": self._timer.latest_ms or 0.0,
+        }
+
+    def _capture(self, view: ViewData, settings: Settings) -> bool:
+        """Brings the collision heightmap up to date; False where nothing shelters."""
+        occluders = view.frame.occluders
+        if not occluders or not view.containers:
+            return False
+        heightmap = self._maps.get(view.key)
+        if heightmap is None or heightmap.size != settings.heightmap_size:
+            if heightmap is not None:
+                heightmap.release()
+            heightmap = Heightmap(self._ctx, self._meshes, settings.heightmap_size)
+            self._maps[view.key] = heightmap
+        rate = max(float(rate) for rate in view.frame.areas["rain_rate"])
+        wind, reach = view.frame.wind, view.frame.look.reach
+        if heightmap.capture(occluders, view.position, reach, wind, fall_speed_of(rate)):
+            self._meshes.keep(occluders)
+        assert heightmap.footprint is not None
+        self._shelter_block["shelter_matrix"] = heightmap.footprint.matrix()
+        self._shelter_block.data["shelter_bias"][0] = heightmap.bias
+        self._shelter_block.upload()
+        self._shelter_block.bind()
+        heightmap.texture.use(SHELTER_UNIT)
+        return True
+
+    def _draw_veils(self, view: ViewData) -> None:
+        if not view.veils:
+            return
+        depth = self._depth.copy(self._guard)
+        if depth is None:
+            return
+        ctx, gl = self._ctx, self._gl
+        ctx.enable_only(moderngl.BLEND | moderngl.CULL_FACE)
+        # The far sides: they are in the picture wherever the camera stands.
+        ctx.front_face, ctx.cull_face = "ccw", "front"
+        gl.glDepthMask(0)
+        self._veil.draw(view, depth)
+        ctx.cull_face = "back"
+
+    def _draw_drops(self, view: ViewData, sheltered: bool) -> int:
+        if not view.containers:
+            return 0
+        self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
+        self._gl.glDepthMask(0)
+        self._counter.begin()
+        offered = self._rain.draw(view, sheltered)
+        self._counter.end()
+        return offered
+
+    def release(self) -> None:
+        """Give back every OpenGL object, in reverse order; twice does no harm."""
+        if self._released:
+            return
+        self._released = True
+        for thing in (self._counter, self._timer, *self._maps.values(), self._meshes, self._depth,
+                      self._shelter_block, self._view_block, self._veil, self._rain,
+                      self._shaders, self._guard):  # fmt: skip
+            thing.release()
+        self._maps.clear()

@@ -1,0 +1,42 @@
+"""The veil: rain beyond what the drops show, one box per area and a closed integral per pixel."""
+
+from __future__ import annotations
+
+import moderngl
+
+from weather_ecs.frame import ViewData
+from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.rain_blocks import VEIL
+from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+
+DRAW = ProgramKey(vertex="veil.vert", fragment="veil.frag")
+DEPTH_UNIT = 0
+
+
+class VeilPass:
+    """Draws the veils of a view over the scene whose depth it is given."""
+
+    def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader) -> None:
+        self._ctx = ctx
+        self._program = shaders.program(DRAW)
+        self._program["scene_depth"] = DEPTH_UNIT
+        self._array = ctx.vertex_array(self._program, [])
+        self._block = BlockBuffer(ctx, VEIL)
+
+    def draw(self, view: ViewData, depth: moderngl.Texture) -> None:
+        """Depth test off, culling of front faces and blending on are the caller's."""
+        depth.use(DEPTH_UNIT)
+        self._block.bind()
+        data = self._block.data
+        for veil in view.veils:
+            data["veil_axis"] = veil.axis
+            data["veil_shape"] = (*veil.shape, 0.0)
+            data["veil_span"] = (*veil.span, 0.0, 0.0)
+            data["veil_load"] = (veil.extinction, veil.shown, 0.0, 0.0)
+            self._block.upload()
+            self._array.render(moderngl.TRIANGLE_STRIP, vertices=14)
+
+    def release(self) -> None:
+        """Give everything back; twice does no harm."""
+        self._array.release()
+        self._block.release()

@@ -1,0 +1,64 @@
+"""Fills the block RainView from a view: the camera and the light of one draw."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.frame import SkyLight, ViewData
+from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.rain_blocks import MAX_LIGHTS
+
+
+def encode(linear: NDArray) -> NDArray:
+    """Linear light to what an 8-bit target shows; as shaders/encode.glsl."""
+    return np.maximum(linear, 0.0) ** (1.0 / 2.2)
+
+
+def drop_light(sky: SkyLight) -> NDArray:
+    """What a drop shows, linear RGB: mostly the sky, as it turns the picture upside down."""
+    zenith, horizon = np.array(sky.zenith_color), np.array(sky.horizon_color)
+    return 0.35 * zenith + 0.55 * horizon + 0.10 * np.array(sky.ground_color)
+
+
+def veil_light(sky: SkyLight) -> NDArray:
+    """Colour of rain so deep that nothing shines through, linear RGB: light from all round."""
+    zenith, horizon = np.array(sky.zenith_color), np.array(sky.horizon_color)
+    return 0.45 * zenith + 0.40 * horizon + 0.15 * np.array(sky.ground_color)
+
+
+def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int, int]) -> None:
+    """Write camera and light of `view`, drawn into `viewport` (x, y, width, height in pixels)."""
+    data = block.data
+    x, y, width, height = viewport
+    p = view.projection
+    block["view_projection"] = p @ view.view
+    pixels = 0.5 * height * float(p[1, 1])
+    look, sky = view.frame.look, view.frame.sky
+    data["camera_position"] = (*view.position, pixels)
+    data["camera_velocity"] = (*view.velocity, look.exposure)
+    forward = -view.view[2, :3]
+    data["camera_forward"] = (*forward.tolist(), 0.0)
+    data["view_size"] = (width, height, 0.0, 0.0)
+    data["view_origin"] = (x, y, 0.0, 0.0)
+    data["view_depth"] = (float(p[2, 2]), float(p[2, 3]), 0.0, 0.0)
+    data["sun_direction"] = (*sky.sun_direction, 0.0)
+    data["sun_color"] = (*sky.sun_color, 0.0)
+    data["drop_color"][:3] = drop_light(sky)
+    data["veil_color"][:3] = encode(veil_light(sky))
+    _fill_lights(block, view)
+
+
+def _fill_lights(block: BlockBuffer, view: ViewData) -> None:
+    """The lights nearest to the camera; a light's reach is how far off it still counts."""
+    lights = view.frame.lights
+    count = len(lights)
+    if count > MAX_LIGHTS:
+        away = np.linalg.norm(lights["position"] - np.array(view.position), axis=1)
+        lights = lights[np.argsort(away - lights["reach"], kind="stable")[:MAX_LIGHTS]]
+        count = MAX_LIGHTS
+    block.data["light_count"] = count
+    if count:
+        block.data["light_position"][:count, :3] = lights["position"]
+        block.data["light_position"][:count, 3] = lights["reach"]
+        block.data["light_color"][:count, :3] = lights["color"]

@@ -1,0 +1,99 @@
+"""A camera read from a view and a projection matrix, as plain numbers.
+
+Notation: forward f, right r, up u (world axes, unit); azimuth of a direction is its heading, so
+that (x, z) = (cos h, -sin h), counter-clockwise seen from above.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InvalidValueError
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """View and projection with what the rain needs of them; world axes, metres, radians."""
+
+    view: NDArray  # (4, 4) float64, M @ column vector
+    projection: NDArray  # (4, 4) float64
+    position: tuple[float, float, float]
+    heading: float  # of the view direction, counter-clockwise seen from above
+    half_width: float  # rad, greatest azimuth between the view direction and what is in view
+
+
+def matrix(value: Any, name: str) -> NDArray:
+    """(4, 4) float64 from 16 column-major floats (a pyglet `Mat4`) or a (4, 4) array.
+
+    Raises InvalidValueError where the shape is another one or a value is not finite.
+    """
+    try:
+        array = np.asarray(tuple(value) if isinstance(value, Sequence) else value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidValueError(name, value, "16 column-major floats or a (4, 4) array") from error
+    if array.shape == (16,):
+        array = array.reshape(4, 4).T
+    if array.shape != (4, 4):
+        raise InvalidValueError(name, value, "16 column-major floats or a (4, 4) array")
+    # A sum is finite only if every term is, and costs a fifth of np.isfinite(...).all().
+    if not math.isfinite(float(array.sum())):
+        raise InvalidValueError(name, value, "finite numbers")
+    return array
+
+
+def wrap_angle(angle: float) -> float:
+    """The same angle in [-pi, pi)."""
+    return (angle + math.pi) % (2.0 * math.pi) - math.pi
+
+
+def camera_from(view: Any, projection: Any) -> Camera:
+    """Camera of a view matrix (world to eye) and a projection matrix.
+
+    Raises InvalidValueError for a wrong shape, numbers that are not finite, or a singular matrix.
+    """
+    v = matrix(view, "view")
+    p = matrix(projection, "projection")
+    try:
+        inverse = np.linalg.inv(v)
+        singular = abs(float(np.linalg.det(p))) < 1e-30
+    except np.linalg.LinAlgError as error:
+        raise InvalidValueError("view", view, "an invertible matrix") from error
+    if singular:
+        raise InvalidValueError("projection", projection, "an invertible matrix")
+    i = inverse.tolist()
+    if not math.isfinite(sum(map(sum, i))) or max(abs(x) for row in i for x in row) > 1e12:
+        raise InvalidValueError("view", view, "an invertible matrix")
+    position = (i[0][3], i[1][3], i[2][3])
+    forward = (-i[0][2], -i[2][2])
+    if math.hypot(*forward) < 1e-6:  # straight up or down: the top of the picture is ahead
+        sign = 1.0 if i[1][2] > 0.0 else -1.0
+        forward = (sign * i[0][1], sign * i[2][1])
+    heading = math.atan2(-forward[1], forward[0])
+    return Camera(v, p, position, heading, _half_width(i, p.tolist(), heading))
+
+
+def _half_width(inverse: list[list[float]], p: list[list[float]], heading: float) -> float:
+    """Greatest azimuth offset of the frustum's corner rays from the heading, pi if unbounded."""
+    if p[3][3] == 1.0:  # parallel rays: the frustum has no apex, so nothing bounds its azimuth
+        return math.pi
+    corners = []
+    for sx in (-1.0, 1.0):
+        for sy in (-1.0, 1.0):
+            ex = (sx + p[0][2]) / p[0][0]
+            ey = (sy + p[1][2]) / p[1][1]
+            dx = inverse[0][0] * ex + inverse[0][1] * ey - inverse[0][2]
+            dy = inverse[1][0] * ex + inverse[1][1] * ey - inverse[1][2]
+            dz = inverse[2][0] * ex + inverse[2][1] * ey - inverse[2][2]
+            corners.append((dx, dy, dz))
+    c, s = math.cos(heading), math.sin(heading)
+    widest = 0.0
+    for dx, _, dz in corners:
+        along, across = dx * c - dz * s, dx * s + dz * c
+        widest = max(widest, abs(math.atan2(across, along)))
+    return widest

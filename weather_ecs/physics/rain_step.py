@@ -1,0 +1,193 @@
+"""One step of the drops of a container: the oracle of `shaders/drop_step.glsl`, in float32.
+
+The same symbols and the same order of operations; see the shader for why the maps are as they
+are. Arrays: p, v (n, 3); birth (n, 4) = forward, lateral, own reach, size quantile.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .container import Container
+
+F = np.float32
+U = np.uint32
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What is the same for all drops of a step: the uniform block `RainStep`."""
+
+    from_axis: tuple[float, float, float, float]  # centre x, centre z, cos heading, sin heading
+    from_shape: tuple[float, float, float, float]  # forward, lateral, bottom, height
+    to_axis: tuple[float, float, float, float]
+    to_shape: tuple[float, float, float, float]
+    wind: tuple[float, float, float, float]  # m/s, and dt in s
+    law: tuple[float, float, float, float]
+    seed: int
+    fresh: int  # drops from here on begin anew
+
+
+def axis_of(container: Container) -> tuple[float, float, float, float]:
+    """(centre x, centre z, cos heading, sin heading)."""
+    h = container.heading
+    return (*container.center, math.cos(h), math.sin(h))
+
+
+def shape_of(container: Container) -> tuple[float, float, float, float]:
+    """(forward reach, lateral reach, bottom, height)."""
+    return (*container.reach, container.bottom, container.height)
+
+
+def law_of(rain_rate: float) -> tuple[float, float, float, float]:
+    """(slope in 1/mm, exp(-0.5 slope), exp(-6 slope), 0) of Marshall and Palmer's distribution."""
+    slope = 4.1 * max(rain_rate, 1e-3) ** -0.21
+    return (slope, math.exp(-0.5 * slope), math.exp(-6.0 * slope), 0.0)
+
+
+def hash_word(x: NDArray[np.uint32]) -> NDArray[np.uint32]:
+    with np.errstate(over="ignore"):
+        state = x.astype(U) * U(747796405) + U(2891336453)
+        word = ((state >> ((state >> U(28)) + U(4))) ^ state) * U(277803737)
+        return (word >> U(22)) ^ word
+
+
+def hash_unit(x: NDArray[np.uint32]) -> NDArray[np.float32]:
+    return (hash_word(x) >> U(8)).astype(F) * F(1.0 / 16777216.0)
+
+
+def resettle(ids: NDArray[np.uint32], s: NDArray, seed: int) -> NDArray:
+    """Even in the half disc of radius s, (n, 2)."""
+    h = hash_word(ids ^ hash_word(np.full(1, seed, U)))
+    r = s * np.sqrt(hash_unit(h))
+    angle = (hash_unit(h ^ U(0x9E3779B9)) - F(0.5)) * F(math.pi)
+    return np.stack([r * np.cos(angle), r * np.sin(angle)], axis=1).astype(F)
+
+
+def to_container(p: NDArray, axis: tuple[float, ...], reach: tuple[float, ...]) -> NDArray:
+    """Shares of reach along the container's own axes, (n, 2), of world points (x, z)."""
+    return turn_to_container(p - np.asarray(axis[:2], F), axis, reach)
+
+
+def turn_to_container(v: NDArray, axis: tuple[float, ...], reach: tuple[float, ...]) -> NDArray:
+    c, s = F(axis[2]), F(axis[3])
+    turned = np.stack([v[:, 0] * c - v[:, 1] * s, v[:, 0] * s + v[:, 1] * c], axis=1)
+    return (turned / np.asarray(reach[:2], F)).astype(F)
+
+
+def from_container(q: NDArray, axis: tuple[float, ...], reach: tuple[float, ...]) -> NDArray:
+    c, s = F(axis[2]), F(axis[3])
+    e = q * np.asarray(reach[:2], F)
+    turned = np.stack([e[:, 0] * c + e[:, 1] * s, -e[:, 0] * s + e[:, 1] * c], axis=1)
+    return (turned + np.asarray(axis[:2], F)).astype(F)
+
+
+def in_half_disc(q: NDArray, s: NDArray) -> NDArray:
+    return (q[:, 0] >= 0.0) & ((q * q).sum(axis=1) <= s * s)
+
+
+def ring(q: NDArray, moved: NDArray, s: NDArray) -> tuple[NDArray, NDArray]:
+    """Drops that left along `moved`, entered again on the same line: (q, which could be)."""
+    length = np.sqrt((moved * moved).sum(axis=1))
+    good = length >= 1e-9
+    e = moved / np.where(good, length, 1.0)[:, None].astype(F)
+    along = (q * e).sum(axis=1)
+    root = s * s - ((q * q).sum(axis=1) - along * along)
+    good &= root > 0.0
+    root = np.sqrt(np.maximum(root, 0.0))
+    first, last = -along - root, -along + root
+    crosses = np.abs(e[:, 0]) > 1e-7
+    back = -q[:, 0] / np.where(crosses, e[:, 0], 1.0)
+    first = np.where(crosses & (e[:, 0] > 0.0), np.maximum(first, back), first)
+    last = np.where(crosses & (e[:, 0] <= 0.0), np.minimum(last, back), last)
+    good &= crosses | (q[:, 0] >= 0.0)
+    chord = last - first
+    good &= chord > 1e-7 * s
+    chord = np.where(good, chord, 1.0).astype(F)
+    moved_by = -chord * np.floor(-first / chord)
+    return np.where(good[:, None], q + e * moved_by[:, None], q).astype(F), good
+
+
+def diameters(quantile: NDArray, law: tuple[float, ...]) -> NDArray:
+    """Diameters in mm, (n,), of size quantiles."""
+    slope, low, high = F(law[0]), F(law[1]), F(law[2])
+    return (-np.log(low - quantile * (low - high)) / slope).astype(F)
+
+
+def fall_speeds(diameter: NDArray) -> NDArray:
+    """Terminal speeds in m/s (Atlas et al. 1973)."""
+    return np.maximum(F(9.65) - F(10.3) * np.exp(F(-0.6) * diameter), F(0.0)).astype(F)
+
+
+def _follow(at: NDArray, drift: NDArray, own: NDArray, s: Step) -> tuple[NDArray, NDArray]:
+    """The container's move and turn as a map of the half disc before onto the one after."""
+    axis = (*s.to_axis[:2], *s.from_axis[2:])
+    q = to_container(at, axis, s.to_shape)
+    out = ~in_half_disc(q, own)
+    shift = np.asarray(s.to_axis[:2], F) - np.asarray(s.from_axis[:2], F)
+    ringed, good = ring(q, turn_to_container(drift - shift, axis, s.to_shape), own)
+    at = np.where(out[:, None], from_container(ringed, axis, s.to_shape), at)
+    good = good | ~out
+    if s.from_axis[2:] != s.to_axis[2:]:
+        q = to_container(at, s.to_axis, s.to_shape)
+        out = ~in_half_disc(q, own)
+        good &= ~out | in_half_disc(-q, own)
+        at = np.where(out[:, None], from_container(-q, s.to_axis, s.to_shape), at)
+    return at, good
+
+
+def _carry(
+    at: NDArray, drift: NDArray, own: NDArray, fresh: NDArray, s: Step
+) -> NDArray[np.float32]:
+    """Drops left outside, carried on until they come to where the container has just arrived."""
+    arrived = np.zeros(len(at), bool)
+    going = np.ones(len(at), bool)
+    for _ in range(4):
+        moved, good = _follow(at, drift, own, s)
+        going &= good
+        at = np.where((going & ~arrived)[:, None], moved, at)
+        before = to_container(at - drift, s.from_axis, s.to_shape)
+        arrived |= going & ~in_half_disc(before, own)
+    return np.where(arrived[:, None], at, fresh).astype(F)
+
+
+def step(
+    birth: NDArray[np.float32], p: NDArray[np.float32], v: NDArray[np.float32], s: Step
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Positions and velocities after one step, each (n, 3) float32."""
+    ids = np.arange(len(birth), dtype=U)
+    own = birth[:, 2]
+    fall = fall_speeds(diameters(birth[:, 3], s.law))
+    drift = np.tile(np.asarray(s.wind[:3], F), (len(birth), 1))
+    drift[:, 1] -= fall
+    p, v = p.copy(), v.copy()
+    first = np.empty_like(p)
+    first[:, [0, 2]] = from_container(birth[:, :2], s.to_axis, s.to_shape)
+    first[:, 1] = F(s.to_shape[2]) + F(s.to_shape[3]) * hash_unit(ids * U(2) + U(1))
+    dt = F(s.wind[3])
+    v += (drift - v) * (F(1.0) - np.exp(-dt * F(9.8) / np.maximum(fall, F(0.1))))[:, None]
+    p += v * dt
+    if s.from_shape[:2] != s.to_shape[:2]:
+        q = to_container(p[:, [0, 2]], s.from_axis, s.from_shape)
+        p[:, [0, 2]] = from_container(q, s.from_axis, s.to_shape)
+
+    fresh = from_container(resettle(ids, own, s.seed), s.to_axis, s.to_shape)
+    out = np.flatnonzero(~in_half_disc(to_container(p[:, [0, 2]], s.to_axis, s.to_shape), own))
+    if len(out):
+        drift_by = v[out][:, [0, 2]] * dt
+        places = _carry(p[out][:, [0, 2]], drift_by, own[out], fresh[out], s)
+        p[out, 0], p[out, 2] = places[:, 0], places[:, 1]
+
+    bottom, height = F(s.to_shape[2]), F(s.to_shape[3])
+    if s.from_shape[3] != s.to_shape[3]:
+        p[:, 1] = bottom + (p[:, 1] - F(s.from_shape[2])) * (height / F(s.from_shape[3]))
+    turns = np.floor((p[:, 1] - bottom) / height)
+    p[:, 1] -= turns * height
+    again = (turns < 0.0)[:, None]
+    p[:, [0, 2]] = np.where(again, fresh, p[:, [0, 2]])
+    begins = (ids >= s.fresh)[:, None]
+    return np.where(begins, first, p), np.where(begins, drift, v)

@@ -1,0 +1,107 @@
+// One step of one drop; physics/rain_step.py is its oracle, symbol for symbol.
+//
+// A drop keeps to the half disc of its own reach s about the container's centre. The container
+// may move, turn and change its size between two steps; what stays inside keeps its place in the
+// world. What is left outside comes in again where the half disc has gained as much as it lost:
+//   moved by d:  along the line of d, by the length of the chord of that line (each line is a ring)
+//   turned:      through the centre (the wedge lost and the wedge gained face each other)
+//   risen, sunk: by the height (the vertical is a ring)
+// A map of both kinds that ends where the container stood before is applied again, until it ends
+// in what is new. These maps keep an even filling even, however far and fast the observer goes, so that the law of
+// Eq. 2 holds at every moment and not only for an observer at rest.
+#include "hash.glsl"
+#include "drop_law.glsl"
+#include "container.glsl"
+#include <block:RainStep>
+
+vec2 resettle(uint id, float s)
+{
+    uint h = hash_word(id ^ hash_word(rain_seed));
+    return half_disc_point(s, hash_unit(h), hash_unit(h ^ 0x9E3779B9u));
+}
+
+// q outside the half disc of radius s, having moved against it by `moved`: around the ring.
+bool ring(inout vec2 q, vec2 moved, float s)
+{
+    float length_moved = length(moved);
+    if (length_moved < 1e-9) return false;
+    vec2 e = moved / length_moved;
+    float along = dot(q, e);
+    float root = s * s - (dot(q, q) - along * along);
+    if (root <= 0.0) return false;
+    root = sqrt(root);
+    float first = -along - root;
+    float last = -along + root;
+    // The flat back cuts the chord where q.x + t e.x = 0.
+    if (abs(e.x) > 1e-7) {
+        float back = -q.x / e.x;
+        if (e.x > 0.0) first = max(first, back); else last = min(last, back);
+    } else if (q.x < 0.0) return false;
+    float chord = last - first;
+    if (chord <= 1e-7 * s) return false;
+    q += e * (chord * floor(-first / chord) * -1.0);
+    return true;
+}
+
+// The container's move and turn as a map of the half disc before onto the one after.
+bool follow(inout vec2 at, vec2 drift, float s)
+{
+    vec4 axis = vec4(to_axis.xy, from_axis.zw);
+    vec2 q = to_container(at, axis, to_shape.xy);
+    if (!in_half_disc(q, s)) {
+        vec2 moved = turn_to_container(drift - (to_axis.xy - from_axis.xy), axis, to_shape.xy);
+        if (!ring(q, moved, s)) return false;
+        at = from_container(q, axis, to_shape.xy);
+    }
+    if (from_axis.zw != to_axis.zw) {
+        q = to_container(at, to_axis, to_shape.xy);
+        if (!in_half_disc(q, s)) {
+            q = -q;
+            if (!in_half_disc(q, s)) return false;
+            at = from_container(q, to_axis, to_shape.xy);
+        }
+    }
+    return true;
+}
+
+void step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
+{
+    float s = birth.z;
+    float fall = drop_speed(drop_diameter(birth.w, rain_law));
+    vec3 drift = vec3(rain_wind.x, rain_wind.y - fall, rain_wind.z);
+    if (id >= rain_fresh) {
+        p.xz = from_container(birth.xy, to_axis, to_shape.xy);
+        p.y = to_shape.z + to_shape.w * hash_unit(id * 2u + 1u);
+        v = drift;
+        return;
+    }
+    float dt = rain_wind.w;
+    // Drag brings a drop to the air's own motion with the time constant of its terminal speed.
+    v += (drift - v) * (1.0 - exp(-dt * 9.8 / max(fall, 0.1)));
+    p += v * dt;
+
+    // The size has changed: the container's own axes keep the drop's place.
+    if (from_shape.xy != to_shape.xy)
+        p.xz = from_container(to_container(p.xz, from_axis, from_shape.xy), from_axis, to_shape.xy);
+
+    // It has moved and turned. What is in both places stays; what is left outside is carried on
+    // until it comes to where the container has only just arrived.
+    if (!in_half_disc(to_container(p.xz, to_axis, to_shape.xy), s)) {
+        vec2 at = p.xz;
+        bool arrived = false;
+        for (int i = 0; i < 4 && !arrived; ++i) {
+            if (!follow(at, v.xz * dt, s)) break;
+            vec2 before = to_container(at - v.xz * dt, from_axis, to_shape.xy);
+            arrived = !in_half_disc(before, s);
+        }
+        p.xz = arrived ? at : from_container(resettle(id, s), to_axis, to_shape.xy);
+    }
+    // It has risen, sunk or grown; or the drop has reached the bottom, and another begins.
+    if (from_shape.w != to_shape.w)
+        p.y = to_shape.z + (p.y - from_shape.z) * (to_shape.w / from_shape.w);
+    float turns = floor((p.y - to_shape.z) / to_shape.w);
+    if (turns != 0.0) {
+        p.y -= turns * to_shape.w;
+        if (turns < 0.0) p.xz = from_container(resettle(id, s), to_axis, to_shape.xy);
+    }
+}

@@ -1,0 +1,80 @@
+// What one drop looks like: its streak's two ends, width and opacity; the drop stands for `weight`
+// real ones, and its area times its opacity is their cross-section.
+#include "drop_law.glsl"
+#include "container.glsl"
+#include "rain_area.glsl"
+#include "encode.glsl"
+#include <block:RainView>
+#include <block:RainDraw>
+#ifdef SHELTER
+#include "shelter.glsl"
+#endif
+
+in vec3 in_position;
+in vec3 in_velocity;
+in vec4 in_birth;
+
+out vec4 vs_tail;   // clip space
+out vec4 vs_head;
+out vec4 vs_color;  // encoded, with opacity
+out float vs_width; // pixels; 0 where there is nothing to draw
+
+void main()
+{
+    vs_width = 0.0;
+    vs_tail = vs_head = vs_color = vec4(0.0);
+    gl_Position = vec4(0.0);
+    vec3 p = in_position;
+    vec3 path = (in_velocity - camera_velocity.xyz) * camera_velocity.w;
+    vec4 head = view_projection * vec4(p, 1.0);
+    vec4 tail = view_projection * vec4(p - path, 1.0);
+    if (min(head.w, tail.w) < 0.1) return;
+    vec2 h = head.xy / head.w;
+    vec2 t = tail.xy / tail.w;
+    if (any(greaterThan(min(h, t), vec2(1.02))) || any(lessThan(max(h, t), vec2(-1.02)))) return;
+
+    float there = area_factor(p.xz, area_axis, area_shape);
+    vec2 q = to_container(p.xz, container_axis, container_shape.xy);
+    float d = length(q);
+    float rim = clamp((1.0 - d / in_birth.z) * 4.0, 0.0, 1.0);
+    if (there * rim <= 0.0) return;
+#ifdef SHELTER
+    if (sheltered(p)) return;
+#endif
+    float rise = (p.y - container_shape.z) / container_shape.w;
+    float ends = clamp((1.0 - rise) * 8.0, 0.0, 1.0) * step(p.y, area_shape.w);
+    float last = clamp((drop_load.y - float(gl_VertexID)) * drop_load.z, 0.0, 1.0);
+    d = min(d, 0.999);
+    float shape = d < 0.75 ? 0.875 - d : 2.0 * (1.0 - d) * (1.0 - d);
+    float weight = drop_load.x * d / shape * rim * there * ends * last;
+
+    float diameter = drop_diameter(in_birth.w, drop_law) * 1e-3;
+    float width = diameter * (1.0 + (drop_look.x - 1.0) * d * d) * drop_look.y * drop_look.z;
+    path *= drop_look.y;  // far drops are drawn larger in all directions
+    tail = view_projection * vec4(p - path, 1.0);
+    if (tail.w < 0.1) return;
+    float covered = 0.785398 * diameter * diameter * weight;
+    float opacity = min(covered / (width * (length(path) + width)), drop_look.w);
+
+    float pixels = width * camera_position.w / head.w;
+    opacity *= min(pixels, 1.0) * smoothstep(0.15, 0.7, head.w);
+    if (opacity < 0.002) return;
+    vs_width = max(pixels, 1.0);
+    vs_head = head;
+    vs_tail = tail;
+
+    // A drop shows the sky of the half behind it, upside down; towards the sun it flares.
+    vec3 ray = normalize(p - camera_position.xyz);
+    float glow = pow(max(dot(ray, sun_direction.xyz), 0.0), 8.0);
+    vec3 light = drop_color.rgb + sun_color.rgb * (0.6 * glow);
+    for (int i = 0; i < light_count; ++i) {
+        vec3 away = light_position[i].xyz - p;
+        float r2 = dot(away, away);
+        float fade = max(1.0 - r2 / (light_position[i].w * light_position[i].w), 0.0);
+        if (fade > 0.0) {
+            float forward = 0.35 + 0.65 * pow(max(dot(ray, away * inversesqrt(r2)), 0.0), 4.0);
+            light += light_color[i].rgb * (fade * fade * forward / (1.0 + 0.5 * r2));
+        }
+    }
+    vs_color = vec4(encode(light), opacity);
+}

@@ -1,0 +1,248 @@
+"""What one observer's camera sees of the rain: containers placed, drops shared out, veils.
+
+Placing belongs to the view and not to the weather: nothing here reaches a snapshot, and a server
+never runs it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Protocol
+
+import numpy as np
+
+from ..frame import ContainerData, DropLook, FrameData, VeilData, ViewData
+from ..physics.camera import Camera
+from ..physics.container import (
+    Area,
+    Container,
+    ContainerSettings,
+    births,
+    place,
+    size_factor,
+    weight_shape,
+)
+from ..physics.drops import extinction, drop_density
+from ..physics.rain_step import axis_of, law_of, shape_of
+
+# A drop count's last tenth fades in, so that a changing count never makes a drop appear at once.
+COUNT_FADE = 0.1
+_LONGEST_STEP = 0.1  # s; a longer pause moves no drop further: rain is alike a moment later
+_FASTEST = 60.0  # m/s; an observer faster than this has been put elsewhere
+_BALANCE_RATE = 2.0  # 1/s, how fast a container's share of the drops follows its importance
+
+
+class Settings(Protocol):
+    """What the placing needs of the quality settings."""
+
+    @property
+    def drops(self) -> int: ...
+    @property
+    def containers(self) -> int: ...
+    @property
+    def budget(self) -> float: ...
+    @property
+    def veil(self) -> bool: ...
+
+
+@dataclass(slots=True)
+class _Placed:
+    container: Container
+    importance: float
+
+
+@dataclass(slots=True)
+class _Observed:
+    """What is remembered of one observer between two views."""
+
+    time: float
+    position: tuple[float, float, float]
+    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    placed: dict[int, _Placed] = field(default_factory=dict)
+
+
+class RainView:
+    """Turns a frame and a camera into a `ViewData`."""
+
+    def __init__(self, seed: int = 0) -> None:
+        self._seed = seed
+        self._observed: dict[int, _Observed] = {}
+        self._births: dict[tuple[int, int], np.ndarray] = {}
+
+    def forget(self, key: int) -> None:
+        """Drop what is remembered of an observer."""
+        self._observed.pop(key, None)
+
+    def view(self, frame: FrameData, camera: Camera, key: int, settings: Settings) -> ViewData:
+        """The frame as `camera` sees it."""
+        seen = self._observed.get(key)
+        if seen is None or frame.time < seen.time:
+            seen = _Observed(frame.time, camera.position)
+            self._observed[key] = seen
+        dt = frame.time - seen.time
+        if dt > 0.0:
+            seen.velocity = _velocity(seen, camera.position, dt)
+            seen.position, seen.time = camera.position, frame.time
+        containers = self._containers(frame, camera, seen, settings, min(dt, 1.0))
+        veiled = settings.veil and frame.look.veil > 0.0
+        return ViewData(
+            frame=frame,
+            key=key,
+            view=camera.view,
+            projection=camera.projection,
+            position=camera.position,
+            velocity=seen.velocity,
+            dt=min(dt, _LONGEST_STEP),
+            containers=tuple(containers),
+            veils=tuple(self._veils(frame, seen, containers)) if veiled else (),
+        )
+
+    def _containers(
+        self,
+        frame: FrameData,
+        camera: Camera,
+        seen: _Observed,
+        settings: Settings,
+        dt: float,
+    ) -> list[ContainerData]:
+        look = frame.look
+        size = ContainerSettings(look.reach, look.height, look.margin)
+        placed: dict[int, _Placed] = {}
+        for row in frame.areas:
+            if row["rain_rate"] <= 0.0:
+                continue
+            area_key = int(row["key"])
+            before = seen.placed.get(area_key)
+            area = Area(
+                tuple(row["center"].tolist()),
+                tuple(row["radii"].tolist()),
+                float(row["heading"]),
+                float(row["ceiling"]),
+            )
+            container = place(
+                area,
+                camera.position,
+                camera.heading,
+                camera.half_width,
+                size,
+                before.container if before else None,
+                dt,
+            )
+            wanted = container.share if container.visible else 0.0
+            if before is not None:
+                change = _BALANCE_RATE * dt
+                wanted = min(max(wanted, before.importance - change), before.importance + change)
+            placed[area_key] = _Placed(container, wanted)
+        seen.placed = placed
+        shown = sorted(
+            (k for k, p in placed.items() if p.container.visible and p.importance > 0.0),
+            key=lambda k: (-placed[k].importance, k),
+        )[: settings.containers]
+        total = max(sum(placed[k].importance for k in shown), 1.0)
+        rows = {int(row["key"]): row for row in frame.areas} if shown else {}
+        data: list[ContainerData] = []
+        for k in shown:
+            count = max(settings.drops * settings.budget * placed[k].importance / total, 1.0)
+            data.extend(self._data(k, rows[k], placed[k].container, count, settings.drops))
+        return data
+
+    def _data(
+        self, key: int, row: np.void, container: Container, count: float, capacity: int
+    ) -> list[ContainerData]:
+        rate = float(row["rain_rate"])
+        forward, lateral = container.reach
+        load = drop_density(rate) * container.height * math.pi * forward * lateral
+        load /= 2.0 * count * (1.0 - 0.5 * COUNT_FADE)
+        h = float(row["heading"])
+        radii = row["radii"].tolist()
+        axis = axis_of(container)
+        # A whole cylinder is the half and its twin, turned about.
+        halves = [(0, axis)]
+        if container.whole:
+            halves.append((1, (axis[0], axis[1], -axis[2], -axis[3])))
+        return [
+            ContainerData(
+                key=2 * key + rear,
+                axis=half,
+                shape=shape_of(container),
+                area_axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
+                area_shape=(*radii, min(float(row["soft_edge"]), radii[1]), float(row["ceiling"])),
+                law=law_of(rate),
+                load=load,
+                count=count,
+                size_scale=container.size_scale,
+                births=self._birth_records(capacity, rear),
+            )
+            for rear, half in halves
+        ]
+
+    def _birth_records(self, capacity: int, rear: int) -> np.ndarray:
+        record = self._births.get((capacity, rear))
+        if record is None:
+            self._births = {k: r for k, r in self._births.items() if k[0] == capacity}
+            record = births(capacity, np.random.default_rng((self._seed, capacity, rear)))
+            record.setflags(write=False)
+            self._births[capacity, rear] = record
+        return record
+
+    def _veils(
+        self, frame: FrameData, seen: _Observed, containers: list[ContainerData]
+    ) -> list[VeilData]:
+        loads = {c.key >> 1: c for c in containers}
+        veils = []
+        for row in frame.areas:
+            rate, key = float(row["rain_rate"]), int(row["key"])
+            if rate <= 0.0 or not seen.placed[key].container.visible:
+                continue
+            container = seen.placed[key].container
+            a, b = row["radii"].tolist()
+            soft = min(float(row["soft_edge"]), b)
+            h, ceiling = float(row["heading"]), float(row["ceiling"])
+            shown = 0.0
+            if key in loads:
+                near = max(0.0, 1.0 - container.distance / frame.look.reach)
+                shown = near * shown_distance(frame.look, round(rate, 1), round(loads[key].count))
+            veils.append(
+                VeilData(
+                    axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
+                    shape=(a, b, min((1.0 - soft / b) ** 2, 0.9999)),
+                    span=(min(container.bottom, seen.position[1]) - 300.0, ceiling),
+                    extinction=float(extinction(rate)) * frame.look.veil,
+                    shown=shown,
+                )
+            )
+        return veils
+
+
+def _velocity(
+    seen: _Observed, position: tuple[float, float, float], dt: float
+) -> tuple[float, float, float]:
+    """The observer's velocity, smoothed over a few frames."""
+    now = [(p - q) / dt for p, q in zip(position, seen.position, strict=True)]
+    if math.hypot(*now) > _FASTEST:
+        return (0.0, 0.0, 0.0)
+    blend = 1.0 - math.exp(-dt / 0.05)
+    x, y, z = (v + (n - v) * blend for v, n in zip(seen.velocity, now, strict=True))
+    return (x, y, z)
+
+
+@lru_cache(maxsize=256)
+def shown_distance(look: DropLook, rain_rate: float, count: int) -> float:
+    """Distance (m) at which the share of the extinction that the drops show has fallen to 0.
+
+    The share falls about linearly; the line has the integral that the share of a drop of 1.5 mm
+    has: what a streak can show is its area times its greatest opacity.
+    """
+    d = np.linspace(0.01, 0.99, 33)
+    diameter = 1.5e-3
+    width = diameter * size_factor(d, look.size_maximum) * look.width
+    length = 6.0 * look.exposure
+    load = float(drop_density(rain_rate)) * look.height * math.pi * look.reach**2
+    load /= 2.0 * max(count, 1)
+    wanted = load * d / weight_shape(d) * 0.7854 * diameter**2 / (width * (length + width))
+    share = np.minimum(look.opacity / np.maximum(wanted, 1e-9), 1.0)
+    # Near its rim the container thins out, whatever a streak could show.
+    share *= np.minimum((1.0 - d) * 4.0, 1.0)
+    return float(2.0 * share.mean() * look.reach)
