@@ -212,6 +212,11 @@ class GL:
         self.glGetQueryiv(target, name, self._address)
         return self._scratch[0]
 
+    def get_attachment(self, target: int, attachment: int, name: int) -> int:
+        """A value of one attachment of the framebuffer bound to `target`."""
+        self.glGetFramebufferAttachmentParameteriv(target, attachment, name, self._address)
+        return self._scratch[0]
+
     def get_string(self, name: int) -> str:
         return (self.glGetString(name) or b"").decode("utf-8", "replace")
 
