@@ -94,6 +94,7 @@ class GL:
     # programs, vertex arrays, buffers
     glUseProgram: Callable[[U], None]
     glIsProgram: Callable[[U], B]
+    glIsShader: Callable[[U], B]
     glGetUniformBlockIndex: Callable[[U, S], U]
     glUniformBlockBinding: Callable[[U, U, U], None]
     glGetUniformIndices: Callable[[U, I, P, P], None]

@@ -1,0 +1,98 @@
+"""Fixtures: one off-screen OpenGL context for all tests, watched for errors and leaks in each."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any, Protocol, TypeVar
+
+import moderngl
+import pytest
+
+from weather_ecs.gpu.gl import GL
+
+NAMES = range(1, 1024)  # drivers hand out the lowest free name
+
+
+class Releasable(Protocol):
+    def release(self) -> Any: ...
+
+
+Thing = TypeVar("Thing", bound=Releasable)
+
+
+def living(gl: GL) -> dict[str, set[int]]:
+    """Names of the OpenGL objects there are, by kind."""
+    kinds: dict[str, Callable[[int], int]] = {
+        "buffer": gl.glIsBuffer,
+        "texture": gl.glIsTexture,
+        "program": gl.glIsProgram,
+        "shader": gl.glIsShader,
+        "vertex array": gl.glIsVertexArray,
+        "framebuffer": gl.glIsFramebuffer,
+        "renderbuffer": gl.glIsRenderbuffer,
+        "sampler": gl.glIsSampler,
+        "query": gl.glIsQuery,
+    }
+    return {kind: {name for name in NAMES if there(name)} for kind, there in kinds.items()}
+
+
+@pytest.fixture(scope="session")
+def shared_context() -> Iterator[moderngl.Context]:
+    """The context of this process; use `ctx`, which watches it."""
+    settings: dict[str, Any] = {"backend": "egl"} if sys.platform.startswith("linux") else {}
+    context = moderngl.create_context(standalone=True, require=330, **settings)
+    yield context
+    context.release()
+
+
+@pytest.fixture
+def ctx(shared_context: moderngl.Context) -> Iterator[moderngl.Context]:
+    """A clean context; afterwards no error may be pending and nothing new may be alive."""
+    with shared_context:
+        gl = GL()
+        rest(shared_context, gl)
+        before = living(gl)
+        yield shared_context
+        error = gl.error()
+        rest(shared_context, gl)
+        after = living(gl)
+    left = {kind: sorted(after[kind] - before[kind]) for kind in after if after[kind] - before[kind]}
+    assert error == 0, f"OpenGL error {error:#06x} pending after the test"
+    assert not left, f"OpenGL objects left alive: {left}"
+
+
+def rest(context: moderngl.Context, gl: GL) -> None:
+    """Nothing bound, no flags, no errors: what one test leaves must not reach the next."""
+    gl.glUseProgram(0)
+    gl.glBindVertexArray(0)
+    context.detect_framebuffer(0).use()
+    context.enable_only(moderngl.NOTHING)
+    while gl.error():
+        pass
+
+
+@pytest.fixture
+def gl(ctx: moderngl.Context) -> GL:
+    """Raw entry points of `ctx`."""
+    return GL()
+
+
+@pytest.fixture
+def keep(ctx: moderngl.Context) -> Iterator[Callable[[Thing], Thing]]:
+    """`keep(thing)` releases a thing at the end of the test, the latest first."""
+    kept: list[Releasable] = []
+
+    def keep_one(thing: Thing) -> Thing:
+        kept.append(thing)
+        return thing
+
+    yield keep_one
+    for thing in reversed(kept):
+        thing.release()
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    # Mesa's shader cache writes to the home directory; tests leave nothing behind.
+    os.environ.setdefault("MESA_SHADER_CACHE_DISABLE", "true")
