@@ -54,7 +54,7 @@ class AutoQuality:
     """
 
     RATE = 0.02  # greatest change in a frame
-    WINDOW = 31  # frames
+    WINDOW = 61  # frames
     DEAD_BAND = 0.10  # share of the budget
     TOLERANCE = 0.05  # share of the target: a frame that long is still on time
     WORTH = 0.10  # share of the frame below which reducing the weather would help nobody
@@ -115,7 +115,8 @@ class AutoQuality:
             wanted = max(room, self.SHARE * self.target) / cost
             wanted = min(wanted, self._ceiling)
         wanted = min(max(wanted, LOWEST_BUDGET), 1.0)
-        if math.isclose(wanted, self.budget, rel_tol=self.DEAD_BAND) and not late:
+        near = math.isclose(wanted, self.budget, rel_tol=self.DEAD_BAND)
+        if near and not late and LOWEST_BUDGET < wanted < 1.0:
             return
         step = min(max(wanted / self.budget, 1.0 - self.RATE), 1.0 + self.RATE)
         self.budget = min(max(self.budget * step, LOWEST_BUDGET), 1.0)
