@@ -1,14 +1,16 @@
 """A host game in a real window, with the plug-in or without it: `window_host.py SCENE MODE OUT`.
 
 MODE is none (the plug-in is not even imported), hidden (it runs and draws no drop) or visible, then
-a backend after a colon. Writes the frames as they were shown and every OpenGL state that
-`weather.draw` changed to OUT (.npz).
+a backend after a colon. Writes the frames as they were shown, and every OpenGL state that making,
+drawing or closing the weather changed, to OUT (.npz).
 """
 
 from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -52,39 +54,52 @@ def screenshot() -> np.ndarray:
     return np.frombuffer(raw, np.uint8).reshape(data.height, data.width, 4).copy()
 
 
+@contextmanager
+def watched(moment: str, problems: list[str], state: bool = True) -> Iterator[None]:
+    """Note what changes of the state, and any OpenGL error, in between."""
+    before = gl_state.read_state() if state else {}
+    yield
+    after = gl_state.read_state() if state else {}
+    problems += [f"{moment}: {line}" for line in gl_state.differences(before, after)]
+    code = gl_state.error()
+    if code:
+        problems.append(f"{moment}: OpenGL error {code:#x}")
+
+
 def main(scene_name: str, mode: str, out: str) -> None:
     mode, _, backend = mode.partition(":")
     window = pyglet.window.Window(*SIZE, vsync=False, caption="host")
-    weather = make_weather(window, mode, backend=backend) if mode != "none" else None
 
     from window_scenes import SCENES
 
     scene = SCENES[scene_name](window)
     view, projection = camera()
-    shown, problems = [], []
+    shown: list[np.ndarray] = []
+    problems: list[str] = []
+    weather = None
+    if mode != "none":
+        with watched("making", problems):
+            weather = make_weather(window, mode, backend=backend)
     for frame in range(FRAMES):
         window.switch_to()
         window.dispatch_events()
         window.clear()
         scene.before(frame)
-        before = gl_state.read_state()
-        if weather is not None:
-            import esper
+        with watched(f"frame {frame}", problems):
+            if weather is not None:
+                import esper
 
-            esper.process(1 / 60)
-            weather.draw(view, projection)
-        after = gl_state.read_state()
-        problems += [f"frame {frame}: {line}" for line in gl_state.differences(before, after)]
-        scene.after(frame)
-        code = gl_state.error()
-        if code:
-            problems.append(f"frame {frame}: OpenGL error {code:#x}")
+                esper.process(1 / 60)
+                weather.draw(view, projection)
+        with watched(f"host's frame {frame}", problems, state=False):
+            scene.after(frame)
         shown.append(screenshot())
         window.flip()
     stats: dict[str, Any] = {}
     if weather is not None:
         stats = {"drops_drawn": weather.stats.drops_drawn, "backend": weather.backend}
-        weather.close()
+        with watched("closing", problems):
+            weather.close()
     untouched = [*scene.opaque, *([scene.nearer] if hasattr(scene, "nearer") else [])]
     notes = json.dumps({"problems": problems, "untouched": untouched, "stats": stats})
     np.savez(out, frames=np.array(shown), notes=notes)

@@ -162,6 +162,7 @@ def case_other_context_current() -> None:
         weather.draw(view, projection)
     except WeatherError as error:
         assert "current" in str(error)
+    assert gl.current_context is other.context, "the host goes on drawing to the other window"
     assert not gl_state.differences(before, gl_state.read_state())
     assert gl_state.error() == 0
     assert show(mine, weather).max() > 0

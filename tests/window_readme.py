@@ -40,12 +40,12 @@ def main(out: str) -> None:
         window.switch_to()
         window.dispatch_event("on_draw")
         np.savez(out, before=drawn[-1], after=screenshot())
-        weather.close()
         pyglet.app.exit()
 
     pyglet.clock.schedule_interval(look, 0.01)
     pyglet.clock.schedule_once(lambda _: sys.exit("it never rained"), LONGEST)
-    exec(compile(example(), str(README), "exec"), names)
+    exec(compile(example(), "the README's example", "exec"), names)
+    names["weather"].close()
 
 
 if __name__ == "__main__":
