@@ -17,6 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.frame import OccluderData
+from weather_ecs.gpu import gl_enums as e
+from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.occluder_meshes import OccluderMeshes
 
 _log = logging.getLogger("weather_ecs")
@@ -86,8 +88,11 @@ def _slope(wind: float, fall_speed: float) -> float:
 class Heightmap:
     """Depth of one observer's surroundings: a cached static layer, and dynamic occluders over it."""
 
-    def __init__(self, ctx: moderngl.Context, meshes: OccluderMeshes, size: int) -> None:
+    def __init__(
+        self, ctx: moderngl.Context, gl: GL, meshes: OccluderMeshes, size: int
+    ) -> None:
         self._ctx = ctx
+        self._gl = gl
         self._meshes = meshes
         self.size = size
         self.footprint: Footprint | None = None
@@ -138,13 +143,20 @@ class Heightmap:
             self._draw(still, place)
             self._static_seen = static_seen
             self.static_captures += 1
-        self._ctx.copy_framebuffer(self._target, self._static_target)
+        self._copy_static()
         self._target.use()
         self._draw(moving, place)
         self._dynamic_seen = dynamic_seen
         self._kept = (still, moving)
         self.captures += 1
         return True
+
+    def _copy_static(self) -> None:
+        # moderngl's copy_framebuffer goes by colour attachments, and these have none.
+        gl, n = self._gl, self.size
+        gl.glBindFramebuffer(e.READ_FRAMEBUFFER, self._static_target.glo)
+        gl.glBindFramebuffer(e.DRAW_FRAMEBUFFER, self._target.glo)
+        gl.glBlitFramebuffer(0, 0, n, n, 0, 0, n, n, e.DEPTH_BUFFER_BIT, e.NEAREST)
 
     def _draw(self, occluders: list[OccluderData], place: Footprint) -> None:
         # From [0, 1] to clip space, where the depth runs the same way.

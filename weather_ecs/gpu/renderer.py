@@ -85,28 +85,27 @@ class Renderer:
         """
         if self._released:
             raise ContextError("the renderer was released")
+        self.stats = {"containers": len(view.containers)}
+        if not view.containers and not view.veils:
+            return
         with self._guard as guard:
             viewport = guard.viewport
             if viewport[2] <= 0 or viewport[3] <= 0:
                 return
+            # Before anything is drawn: a driver asked about work it has just been given starts it
+            # at once, and a software driver then draws the frame in pieces.
+            self.stats["gpu_ms"] = self._timer.latest_ms or 0.0
+            self.stats["drops_drawn"] = (self._counter.latest or 0) // 2 if view.containers else 0
             self._timer.begin()
-            moved = offered = 0
-            if view.containers or view.veils:
-                fill_view(self._view_block, view, viewport)
-                self._view_block.upload()
-                self._view_block.bind()
-                sheltered = self._capture(view, settings)
-                moved = self._rain.update(view)
-                guard.bind_framebuffer()
-                self._draw_veils(view)
-                offered = self._draw_drops(view, sheltered)
+            fill_view(self._view_block, view, viewport)
+            self._view_block.upload()
+            self._view_block.bind()
+            sheltered = self._capture(view, settings)
+            self.stats["drops_moved"] = self._rain.update(view)
+            guard.bind_framebuffer()
+            self._draw_veils(view)
+            self._draw_drops(view, sheltered)
             self._timer.end()
-        self.stats = {
-            "drops_moved": moved,
-            "drops_drawn": (self._counter.latest or 0) // 2 if offered else 0,
-            "containers": len(view.containers),
-            "gpu_ms": self._timer.latest_ms or 0.0,
-        }
 
     def _capture(self, view: ViewData, settings: Settings) -> bool:
         """Brings the collision heightmap up to date; False where nothing shelters."""
@@ -117,7 +116,8 @@ class Renderer:
         if heightmap is None or heightmap.size != settings.heightmap_size:
             if heightmap is not None:
                 heightmap.release()
-            heightmap = Heightmap(self._ctx, self._meshes, settings.heightmap_size)
+            size = settings.heightmap_size
+            heightmap = Heightmap(self._ctx, self._gl, self._meshes, size)
             self._maps[view.key] = heightmap
         rate = max(float(rate) for rate in view.frame.areas["rain_rate"])
         wind, reach = view.frame.wind, view.frame.look.reach
@@ -145,15 +145,14 @@ class Renderer:
         self._veil.draw(view, depth)
         ctx.cull_face = "back"
 
-    def _draw_drops(self, view: ViewData, sheltered: bool) -> int:
+    def _draw_drops(self, view: ViewData, sheltered: bool) -> None:
         if not view.containers:
-            return 0
+            return
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
         self._counter.begin()
-        offered = self._rain.draw(view, sheltered)
+        self._rain.draw(view, sheltered)
         self._counter.end()
-        return offered
 
     def release(self) -> None:
         """Give back every OpenGL object, in reverse order; twice does no harm."""

@@ -51,5 +51,7 @@ void main()
         - over_level(inner, lowest, a, middle, t0, t1)) / (1.0 - inner);
     float opacity = 1.0 - exp(-veil_load.x * path * length(ray));
     if (opacity < 0.002) discard;
-    color = vec4(veil_color.rgb, opacity);
+    // A pixel's own grain, under one step of an 8-bit target, keeps the soft ramp from banding.
+    float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    color = vec4(veil_color.rgb + (grain - 0.5) * (1.6 / 255.0) / max(opacity, 0.05), opacity);
 }
