@@ -17,7 +17,7 @@ from ..errors import InvalidValueError
 from .checks import FloatArray, floats, number
 
 THINNEST = 1e12  # a / b beyond this has no meaning in float64 metres
-NEGLIGIBLE = 1e-150  # w / b below this is on the major axis; its square still is a float
+NEGLIGIBLE = 1e-150  # shares of a radius below this count as 0; their squares are still floats
 
 
 def semi_axes(radii: ArrayLike) -> tuple[float, float]:
@@ -79,7 +79,7 @@ def edge_distance(
     rho = np.hypot(scaled[..., 0], scaled[..., 1])
     slope = np.hypot(scaled[..., 0] / a, scaled[..., 1] / b)
     with np.errstate(divide="ignore", invalid="ignore"):
-        span = np.where(slope > 0.0, rho / slope, b)
+        span = np.where(rho > NEGLIGIBLE, rho / slope, b)
     return (1.0 - rho) * span
 
 
