@@ -18,7 +18,7 @@ TARGET = 1000.0 / 60.0
 
 def test_levels_grow():
     low, medium, high, ultra = (LEVELS[name] for name in QUALITIES[:4])
-    assert [x.drops for x in (low, medium, high, ultra)] == [6_000, 14_000, 40_000, 120_000]
+    assert [x.drops for x in (low, medium, high, ultra)] == [6_000, 14_000, 50_000, 120_000]
     assert [x.containers for x in (low, medium, high, ultra)] == [2, 4, 8, 16]
     for less, more in ((low, medium), (medium, high), (high, ultra)):
         assert less.heightmap_size < more.heightmap_size

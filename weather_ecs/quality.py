@@ -30,7 +30,7 @@ class QualitySettings:
 LEVELS: dict[str, QualitySettings] = {
     "low": QualitySettings("low", 6_000, 2, 256, True, 2),
     "medium": QualitySettings("medium", 14_000, 4, 512, True, 4),
-    "high": QualitySettings("high", 40_000, 8, 1024, True, 4),
+    "high": QualitySettings("high", 50_000, 8, 1024, True, 4),
     "ultra": QualitySettings("ultra", 120_000, 16, 2048, True, 8),
     # Everything that would be seen to jump is fixed; the share of the drops glides.
     "auto": QualitySettings("auto", 120_000, 8, 512, True, 4, _FIRST_BUDGET),
