@@ -8,6 +8,7 @@ import math
 import subprocess
 import sys
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -28,6 +29,7 @@ from weather_ecs.components import (
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.frame import DropLook, SkyLight
 
+ROOT = Path(__file__).resolve().parent.parent
 NAN, INF = math.nan, math.inf
 NOT_NUMBERS = [NAN, INF, -INF, None, "5", True, np.bool_(True), 1j, [1.0], np.ones(1), 10**400]
 
@@ -214,7 +216,7 @@ def test_components_load_without_esper_and_without_opengl():
         "sys.modules['weather_ecs'] = p; import weather_ecs.components;"
         "assert not {'esper', 'moderngl', 'pyglet'} & set(sys.modules)"
     )
-    subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=60, cwd=ROOT)
 
 
 def test_what_is_exported_exists():

@@ -73,7 +73,7 @@ class Clock:
         total = self.remainder + seconds * self._speed
         due = int((total + _SLACK) / STEP)
         self.remainder = min(max(total - due * STEP, 0.0), math.nextafter(STEP, 0.0))
-        self.steps += due
+        self.steps = min(self.steps + due, MOST_STEPS)
         return due
 
     def state(self) -> dict[str, Any]:
