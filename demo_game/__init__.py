@@ -1,0 +1,1 @@
+"""The walk: a first-person game in and out of the rain, built on weather_ecs's public face."""

@@ -1,0 +1,117 @@
+"""The game's entities: what it tells the weather about itself."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import esper
+from weather_ecs.components import Occluder, PointLight, RainArea, RainContainer, Sun, Wind
+
+from demo_game.mood import Mood
+from demo_game.place import Place
+from demo_game.skies import Light
+
+CENTER = (0.0, -70.0)  # (x, z), m, of the rain area that the walk leads through
+RADII = (70.0, 45.0)  # m
+SOFT_EDGE = 12.0  # m
+CEILING = 400.0  # m
+
+SHOWER_RADII = (85.0, 48.0)  # m, of the small one that passes in the distance
+SHOWER_EDGE = 24.0  # m
+SHOWER_SHARE = 0.6  # of the rain rate of the large one
+SHOWER_DISTANCE = 420.0  # m that its course keeps from the place, to the left of the wind
+SHOWER_COURSE = 600.0  # m before and behind there, then it begins anew
+SHOWER_BEFORE = -250.0  # m along its course, where it is when the game begins
+PLACE_MIDDLE = (0.0, -40.0)  # (x, z), m
+
+
+class Entities:
+    """Creates the entities in esper's current world and keeps them up to date."""
+
+    def __init__(self, place: Place, mood: Mood, light: Light) -> None:
+        self._place = place
+        self.area = RainArea(center=CENTER, radii=RADII, soft_edge=SOFT_EDGE, ceiling=CEILING)
+        self.shower = RainArea(
+            center=on_course(SHOWER_BEFORE, mood.wind_heading),
+            radii=SHOWER_RADII,
+            soft_edge=SHOWER_EDGE,
+            ceiling=CEILING,
+            heading=mood.wind_heading,
+            drift=1.0,
+        )
+        self._wind, self._sun = Wind(), Sun()
+        for component in (self.area, self.shower, RainContainer(), self._wind, self._sun):
+            esper.create_entity(component)
+        self._lamps = []
+        for position, color, reach in place.lamps:
+            lamp = PointLight(position=position, color=color, reach=reach)
+            esper.create_entity(lamp)
+            self._lamps.append((lamp, color))
+        poses = place.poses(0.0)
+        self._moving: dict[str, Occluder] = {}
+        for name, vertices, indices, dynamic in place.occluders():
+            occluder = Occluder(vertices, indices, poses.get(name), dynamic)
+            esper.create_entity(occluder)
+            if dynamic:
+                self._moving[name] = occluder
+        self.update(mood, light, 0.0)
+
+    def update(self, mood: Mood, light: Light, time: float) -> None:
+        """Carry the game's state of this frame into the components."""
+        for area, rate in self.rates(mood):
+            _assign(area, rain_rate=rate)
+        _assign(self._wind, speed=mood.wind_speed)
+        x, z = direction(mood.wind_heading)
+        if x * self._wind.direction[0] + z * self._wind.direction[1] < 1.0 - 1e-9:
+            self._wind.direction = (x, z)
+        _assign(
+            self._sun,
+            color=light.sun_color,
+            zenith_color=light.zenith_color,
+            horizon_color=light.horizon_color,
+            ground_color=light.ground_color,
+        )
+        if math.dist(self._sun.direction, light.sun_direction) > 1e-9:
+            self._sun.direction = light.sun_direction
+        for lamp, (r, g, b) in self._lamps:
+            _assign(lamp, color=(r * light.lamps, g * light.lamps, b * light.lamps))
+        for name, pose in self._place.poses(time).items():
+            self._moving[name].transform = pose
+        self._send_shower_on(mood.wind_heading)
+
+    def areas(self) -> list[RainArea]:
+        """All rain areas."""
+        return [self.area, self.shower]
+
+    def rates(self, mood: Mood) -> list[tuple[RainArea, float]]:
+        """Every area with the rain rate that a mood gives it, mm/h."""
+        return [(self.area, mood.rain_rate), (self.shower, SHOWER_SHARE * mood.rain_rate)]
+
+    def _send_shower_on(self, heading: float) -> None:
+        # Whatever turned the wind, the shower is carried off at some time and comes from upwind.
+        x, z = self.shower.center
+        if math.hypot(x - PLACE_MIDDLE[0], z - PLACE_MIDDLE[1]) > SHOWER_COURSE + SHOWER_DISTANCE:
+            self.shower.center = on_course(-SHOWER_COURSE, heading)
+            self.shower.heading = heading
+
+
+def direction(heading: float) -> tuple[float, float]:
+    """Unit vector (x, z) of a heading."""
+    return math.cos(heading), -math.sin(heading)
+
+
+def on_course(along: float, heading: float) -> tuple[float, float]:
+    """(x, z) on the shower's course past the place, so many metres before or behind its middle."""
+    x, z = direction(heading)
+    return (
+        PLACE_MIDDLE[0] + x * along + z * SHOWER_DISTANCE,
+        PLACE_MIDDLE[1] + z * along - x * SHOWER_DISTANCE,
+    )
+
+
+def _assign(component: Any, **fields: Any) -> None:
+    # An assignment tells the weather that its caches are stale, so only what changed is assigned.
+    for name, value in fields.items():
+        if getattr(component, name) != value:
+            setattr(component, name, value)

@@ -1,0 +1,198 @@
+"""The game itself, the same in a window and off screen: update, then draw."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import Any
+
+import esper
+import moderngl
+from weather_ecs import Weather
+from weather_ecs.components import RainArea
+from weather_ecs.presets import PRESETS
+
+from demo_game.camera import Pose, projection_matrix, view_matrix
+from demo_game.collision import Colliders
+from demo_game.entities import Entities, direction
+from demo_game.mood import TURN_STEP, WIND_STEP, MoodChanger, preset_mood
+from demo_game.place import Place
+from demo_game.player import Intent, Player
+from demo_game.render import Environment, SceneRenderer
+from demo_game.settings import Settings
+from demo_game.skies import SkyChanger
+from demo_game.tours import Tour
+
+WIND_HEADING = math.radians(-20.0)  # to the east, a little south
+TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
+START = (0.0, 70.0)  # (x, z), m, where a player begins, looking north
+CLEAR_FOG, RAIN_FOG = 0.00018, 0.0011  # 1/m under a clear and a covered sky
+WETTING, DRYING = 12.0, 60.0  # s until the ground in the rain is wet, and dry again
+
+_numbers = itertools.count(1)
+STILL = Intent()
+
+
+class Game:
+    """Place, player, weather and their drawing, in an esper world of its own."""
+
+    def __init__(
+        self,
+        context: moderngl.Context,
+        settings: Settings,
+        *,
+        place: Place | None = None,
+        seed: int = 0,
+        preset: str = "heavy",
+        tour: Tour | None = None,
+    ) -> None:
+        self.settings = settings
+        self.time = 0.0  # s of play
+        self.tour = tour
+        self.mood = MoodChanger(preset, WIND_HEADING)
+        self.sky = SkyChanger()
+        self._context, self._seed = context, seed
+        self._before = esper.current_world
+        self._world = f"demo_game {next(_numbers)}"
+        esper.switch_world(self._world)
+        self.place = place if place is not None else Place(seed)
+        self.player = Player(self.place, Colliders.of(self.place.colliders))
+        self.player.place_at(*START, yaw=0.0)
+        self._wetness = min(self.mood.current.rain_rate / 2.0, 1.0)
+        self._entities = Entities(self.place, self.mood.current, self._light())
+        self.scene = SceneRenderer(context, self.place, settings.quality)
+        self.weather = self._make_weather()
+        self.pose = self._pose()
+
+    @property
+    def state(self) -> str:
+        """Name of the weather that is there or on its way."""
+        return self.mood.preset
+
+    @property
+    def areas(self) -> list[RainArea]:
+        """The rain areas, for the map."""
+        return self._entities.areas()
+
+    def update(self, dt: float, intent: Intent = STILL) -> None:
+        """Let dt seconds pass."""
+        esper.switch_world(self._world)
+        self.time += dt
+        self.mood.update(dt)
+        self.sky.update(dt)
+        self._wet(dt)
+        self._entities.update(self.mood.current, self._light(), self.time)
+        if self.tour is None:
+            self.player.update(dt, intent)
+        self.pose = self._pose()
+        esper.process(dt)
+
+    def draw(self, framebuffer: moderngl.Framebuffer) -> None:
+        """Draw the picture into a framebuffer of any size but 0."""
+        width, height = framebuffer.size
+        if width < 1 or height < 1:
+            return
+        esper.switch_world(self._world)
+        view = view_matrix(self.pose)
+        projection = projection_matrix(self.settings.hfov, width / height)
+        framebuffer.use()
+        self.scene.draw(framebuffer, view, projection, self.time, self._environment())
+        framebuffer.use()
+        self.weather.draw(view, projection)
+
+    def choose_preset(self, name: str) -> str:
+        """Change the weather; returns what to tell the player."""
+        self.mood.choose(name)
+        return PRESETS[name].description
+
+    def blow(self, steps: int) -> str:
+        """Strengthen or weaken the wind by keys; returns what to tell the player."""
+        self.mood.blow(steps * WIND_STEP)
+        return f"Wind {self.mood.target.wind_speed:.1f} m/s"
+
+    def turn_wind(self, steps: int) -> float:
+        """Turn the wind by keys; returns its bearing in degrees."""
+        self.mood.turn_wind(steps * TURN_STEP)
+        return bearing(self.mood.target.wind_heading)
+
+    def settings_changed(self, field: str) -> None:
+        """A setting has another value now."""
+        if field == "quality":
+            self.weather.quality = self.settings.quality
+            self.scene.quality = self.settings.quality
+        elif field == "backend":
+            self._change_backend()
+
+    def close(self) -> None:
+        """Give everything back; a second call does nothing."""
+        if self._world not in esper.list_worlds():
+            return
+        esper.switch_world(self._world)
+        self.weather.close()
+        self.scene.release()
+        esper.switch_world(self._before)
+        esper.delete_world(self._world)
+
+    def _change_backend(self) -> None:
+        # The weather goes on where it was: only who moves the drops changes.
+        saved = self.weather.snapshot()
+        esper.switch_world(self._world)
+        self.weather.close()
+        self.weather = self._make_weather()
+        self.weather.restore(saved)
+
+    def _make_weather(self) -> Weather:
+        return Weather(
+            context=self._context,
+            seed=self._seed,
+            quality=self.settings.quality,
+            backend=self.settings.backend,
+        )
+
+    def _pose(self) -> Pose:
+        return self.player.pose() if self.tour is None else self.tour.pose(self.time)
+
+    def _overcast(self) -> float:
+        if self.tour is not None:  # so that the difference of two tours is the rain alone
+            return PRESETS[TOUR_SKY].overcast
+        return self.mood.current.overcast
+
+    def _light(self) -> Any:
+        return self.sky.light(self._overcast())
+
+    def _wet(self, dt: float) -> None:
+        if self.tour is not None:
+            self._wetness = 1.0
+            return
+        goal = min(self.mood.current.rain_rate / 2.0, 1.0)
+        time = WETTING if goal > self._wetness else DRYING
+        self._wetness += (1.0 - math.exp(-dt / time)) * (goal - self._wetness)
+
+    def _environment(self) -> Environment:
+        light, overcast = self._light(), self._overcast()
+        mood = self.mood.current
+        if self.tour is not None:
+            mood = preset_mood(TOUR_SKY, WIND_HEADING)
+        x, z = direction(mood.wind_heading)
+        return Environment(
+            sun_direction=light.sun_direction,
+            sun_color=light.sun_color,
+            zenith_color=light.zenith_color,
+            horizon_color=light.horizon_color,
+            ground_color=light.ground_color,
+            overcast=overcast,
+            wetness=self._wetness,
+            fog_density=CLEAR_FOG + overcast * (RAIN_FOG - CLEAR_FOG),
+            fog_color=light.horizon_color,
+            rain_areas=[
+                (area.center, area.radii, area.heading, rate, area.ceiling)
+                for area, rate in self._entities.rates(mood)
+            ],
+            wind=(mood.wind_speed * x, 0.0, mood.wind_speed * z),
+            lamps=light.lamps,
+        )
+
+
+def bearing(heading: float) -> float:
+    """Degrees from -z (north) over +x (east) of a heading."""
+    return (90.0 - math.degrees(heading)) % 360.0

@@ -1,0 +1,95 @@
+"""How much it rains and blows now: presets that change into each other over a few seconds."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from weather_ecs.presets import PRESETS
+
+CHANGE_TIME = 4.0  # s from one preset to the next
+TURN_TIME = 1.0  # s for a change of the wind by hand
+STRONGEST_WIND = 24.0  # m/s, by hand
+WIND_STEP = 2.0  # m/s per key
+TURN_STEP = math.radians(15.0)  # per key
+
+
+@dataclass(frozen=True)
+class Mood:
+    """What the presets set, and the wind's heading."""
+
+    rain_rate: float  # mm/h
+    wind_speed: float  # m/s
+    overcast: float  # 0..1
+    wind_heading: float  # rad, where it blows to, counter-clockwise seen from above
+
+
+def preset_mood(name: str, wind_heading: float) -> Mood:
+    """The mood of a preset; raises KeyError for a name that is none."""
+    preset = PRESETS[name]
+    return Mood(preset.rain_rate, preset.wind_speed, preset.overcast, wind_heading)
+
+
+def blend(before: Mood, after: Mood, share: float) -> Mood:
+    """From `before` to `after`."""
+    return Mood(
+        _blend_rate(before.rain_rate, after.rain_rate, share),
+        before.wind_speed + share * (after.wind_speed - before.wind_speed),
+        before.overcast + share * (after.overcast - before.overcast),
+        before.wind_heading + share * (after.wind_heading - before.wind_heading),
+    )
+
+
+def _blend_rate(before: float, after: float, share: float) -> float:
+    if share >= 1.0:
+        return after
+    # log1p keeps the change even to the eye and reaches 0 without a jump.
+    return math.expm1(math.log1p(before) + share * (math.log1p(after) - math.log1p(before)))
+
+
+class MoodChanger:
+    """The current mood, on its way to the one that was asked for."""
+
+    def __init__(self, preset: str, wind_heading: float) -> None:
+        self.preset = preset
+        self.current = preset_mood(preset, wind_heading)
+        self._from = self._to = self.current
+        self._time, self._length = 1.0, 1.0
+
+    @property
+    def target(self) -> Mood:
+        """The mood that will be reached."""
+        return self._to
+
+    @property
+    def changing(self) -> bool:
+        """Whether a change is under way."""
+        return self._time < self._length
+
+    def choose(self, preset: str) -> None:
+        """Change to a preset; the wind keeps its heading."""
+        target = preset_mood(preset, self._to.wind_heading)
+        self.preset = preset
+        self._go(target, CHANGE_TIME)
+
+    def blow(self, by: float) -> None:
+        """Strengthen the wind by so many m/s, within 0 and STRONGEST_WIND."""
+        speed = min(max(self._to.wind_speed + by, 0.0), STRONGEST_WIND)
+        self._go(replace(self._to, wind_speed=speed), max(TURN_TIME, self._length - self._time))
+
+    def turn_wind(self, by: float) -> None:
+        """Turn the wind by so many rad."""
+        turned = replace(self._to, wind_heading=self._to.wind_heading + by)
+        self._go(turned, max(TURN_TIME, self._length - self._time))
+
+    def update(self, dt: float) -> None:
+        """Let dt seconds pass."""
+        if not self.changing:
+            return
+        self._time = min(self._time + dt, self._length)
+        share = self._time / self._length
+        self.current = blend(self._from, self._to, share * share * (3.0 - 2.0 * share))
+
+    def _go(self, target: Mood, length: float) -> None:
+        self._from, self._to = self.current, target
+        self._time, self._length = 0.0, length

@@ -1,0 +1,155 @@
+"""Scripted ways through the place: a pose for every moment, the same at any frame rate.
+
+`walk` shows every stage within the time it is given: it goes as fast as that needs, each stage
+having its share of the time (`WALK`). `run` and `crossing` move at a true speed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from demo_game.camera import Pose
+from demo_game.curve import Smooth
+from demo_game.player import BOB, RUN_SPEED, STRIDE, SWAY, Ground
+from demo_game.route import Glance, Key, Look, Route, stage_at
+
+TOURS = ("walk", "run", "crossing", "still")
+WALKING = 1.4  # m/s
+
+EDGE_Z = -25.0  # m, where the way crosses the perimeter of the rain area
+CURTAIN = (0.0, 16.0, -60.0)  # what one looks at from outside
+OUT_OF_DOOR = (3.0, 1.0, -40.0)
+BACK = (12.0, 14.0, -70.0)
+
+# The whole way: along the path, up the steps, into the cabin and back out of its only door, and
+# on along the path. A key names a corner, so a change here needs a look at WALK.
+WAY = (
+    (0.4, 68.0), (0.9, 62.0), (3.0, 46.0), (-1.5, 24.0), (-1.0, 2.0), (0.2, -14.0), (0.5, -24.0),
+    (0.0, -38.0), (2.2, -49.6), (6.0, -54.6), (6.0, -62.4), (6.0, -54.6), (2.6, -51.8),
+    (-2.6, -55.0), (-5.0, -66.0), (-8.0, -86.0), (-9.5, -104.0), (-13.0, -122.0), (-14.8, -130.0),
+)  # fmt: skip
+TURN = 10  # the corner inside the cabin, where the way goes back
+# The shares of the time leave most of it to the edge and to the cabin.
+WALK = (
+    Key(0.00, 0, "far"),
+    Key(0.07, 1, "approach"),
+    Key(0.22, 4),
+    Key(0.27, 5, "edge"),
+    Key(0.39, 7, "inside"),
+    Key(0.49, 9, "cabin"),
+    Key(0.55, TURN),
+    Key(0.68, TURN, "out"),
+    Key(0.73, 11),
+    Key(0.76, 13, "leaving"),
+    Key(0.87, 16),
+    Key(0.93, 17, "looking back"),
+    Key(0.97, 18),
+    Key(1.00, 18),
+)
+GLANCES = (
+    Glance(0.00, CURTAIN),
+    Glance(0.07, CURTAIN),
+    Glance(0.20),
+    Glance(0.54),
+    Glance(0.64, OUT_OF_DOOR),
+    Glance(0.69, OUT_OF_DOOR),
+    Glance(0.77),
+    Glance(0.90),
+    Glance(0.985, BACK),
+    Glance(1.00, BACK),
+)
+RUN = ((0.0, 5.0), (0.0, -36.0), (-12.0, -60.0), (-12.0, -115.0), (-20.0, -150.0))
+CROSSING = ((0.0, EDGE_Z + 12.0), (0.0, EDGE_Z - 24.0))
+STILL = (-4.0, -44.0)
+STILL_LOOK = (6.0, 2.2, -62.0)
+
+
+class Tour:
+    """A pose for every moment."""
+
+    def __init__(
+        self,
+        name: str,
+        route: Route,
+        along: Callable[[float], float],
+        look: Look,
+        stages: Callable[[float], str],
+        *,
+        hurried: bool = False,
+    ) -> None:
+        self.name = name
+        self._route, self._along, self._look, self._stages = route, along, look, stages
+        self._hurried = hurried
+
+    def pose(self, time: float) -> Pose:
+        """Eye and look at `time` seconds."""
+        along = self._along(time)
+        speed = (self._along(time + 0.02) - self._along(time - 0.02)) / 0.04
+        # Where the way is hurried the steps follow the clock: nobody takes 15 of them a second.
+        phase = math.tau * (time * WALKING if self._hurried else along) / STRIDE
+        share = min(max(speed / WALKING, 0.0), 1.0)
+        x, y, z = self._route.eye(along)
+        yaw, pitch = self._look(time)
+        eye = (x, y - share * BOB * math.cos(2 * phase), z)
+        return Pose(eye, yaw, pitch, share * SWAY * math.sin(phase))
+
+    def stage(self, time: float) -> str:
+        """Name of the stage at `time`."""
+        return self._stages(time)
+
+
+def make_tour(name: str, ground: Ground, duration: float, speed: float = WALKING) -> Tour:
+    """A tour of that name that lasts `duration` seconds; `speed` (m/s) is for `crossing`."""
+    duration = max(duration, 1e-6)
+    if name == "walk":
+        return _walk(ground, duration)
+    if name == "run":
+        return _straight("run", ground, RUN, RUN_SPEED)
+    if name == "crossing":
+        return _straight("crossing", ground, CROSSING, speed)
+    if name == "still":
+        return _still(ground)
+    raise ValueError(f"tour: got {name!r}, allowed: {', '.join(TOURS)}")
+
+
+def _walk(ground: Ground, duration: float) -> Tour:
+    route = Route(ground, WAY, rounding=4.0, turns=(TURN,))
+    corners = route.path.corner_lengths
+    along_share = Smooth([key.u for key in WALK], [corners[key.corner] for key in WALK])
+    look = Look.between(route, along_share, GLANCES)
+    return Tour(
+        "walk",
+        route,
+        lambda time: along_share(time / duration),
+        lambda time: look(time / duration),
+        lambda time: stage_at(WALK, time / duration),
+        hurried=route.path.length / duration > RUN_SPEED / 2,
+    )
+
+
+def _straight(
+    name: str, ground: Ground, points: tuple[tuple[float, float], ...], speed: float
+) -> Tour:
+    route = Route(ground, list(points), rounding=4.0)
+    length = route.path.length
+
+    def along(time: float) -> float:
+        return min(max(time * speed, 0.0), length)
+
+    def stage(time: float) -> str:
+        return "outside" if route.path(along(time))[1] > EDGE_Z else "inside"
+
+    look = Look.ahead(route)
+    return Tour(name, route, along, lambda time: look(along(time) / length), stage)
+
+
+def _still(ground: Ground) -> Tour:
+    x, z = STILL
+    route = Route(ground, [(x, z), (x, z - 1.0)], rounding=0.0)
+    eye = np.array(route.eye(0.0))
+    look = Look.towards(np.array(STILL_LOOK) - eye)
+    return Tour("still", route, lambda time: 0.0, look, lambda time: "still")

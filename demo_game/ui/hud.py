@@ -1,0 +1,132 @@
+"""The readout on F3, and short messages at the foot of the window."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from demo_game.ui.theme import MARGIN, PADDING, TEXT_DIM, Frame, Layer, Rect, Text
+
+ROWS = (
+    "frame",
+    "drops moved",
+    "drops drawn",
+    "rain",
+    "rain here",
+    "wind",
+    "sky",
+    "quality",
+    "engine",
+    "position",
+)
+WIDTH = 318.0  # units
+ROW = 22.0
+NAME_WIDTH = 112.0
+SIZE = 14.0
+
+INTERVAL = 0.25  # s between two readings; figures that change faster cannot be read
+
+MESSAGE_TIME = 2.6  # s
+MESSAGE_FADE = 0.5  # s
+
+
+class Readout:
+    """A panel of names and values at the upper left."""
+
+    def __init__(self, frame: Frame) -> None:
+        self._layer = layer = Layer(frame)
+        px = frame.px
+        height = px(ROW * len(ROWS) + 2 * PADDING)
+        self.panel = Rect(px(MARGIN), frame.height - px(MARGIN) - height, px(WIDTH), height)
+        layer.panel(self.panel)
+        self._values: dict[str, Text] = {}
+        for index, name in enumerate(ROWS):
+            y = self.panel.top - px(PADDING + ROW * (index + 0.5))
+            x = self.panel.x + px(PADDING)
+            layer.text(name, x, y, SIZE, color=TEXT_DIM)
+            self._values[name] = layer.text("", x + px(NAME_WIDTH), y, SIZE)
+
+    def show(self, values: Mapping[str, str]) -> None:
+        """Set the values; a name without one is left empty."""
+        for name, text in self._values.items():
+            text.set(values.get(name, ""))
+
+    def draw(self) -> None:
+        """Draw it."""
+        self._layer.draw()
+
+    def delete(self) -> None:
+        """Give the GPU memory back."""
+        self._layer.delete()
+
+
+class Message:
+    """One line at the foot of the window that goes away by itself."""
+
+    def __init__(self, frame: Frame) -> None:
+        self._frame = frame
+        self._layer: Layer | None = None
+        self._left = 0.0
+
+    def say(self, text: str) -> None:
+        """Show a line."""
+        self.delete()
+        frame = self._frame
+        px = frame.px
+        self._layer = layer = Layer(frame)
+        label = layer.text(text, frame.width / 2, px(MARGIN + 22), 17, anchor_x="center")
+        width = label.width + px(4 * PADDING)
+        layer.panel(Rect(round((frame.width - width) / 2), px(MARGIN), width, px(44)))
+        self._left = MESSAGE_TIME
+
+    def update(self, dt: float) -> None:
+        """Let dt seconds pass."""
+        if self._layer is not None:
+            self._left -= dt
+            if self._left <= 0.0:
+                self.delete()
+
+    def draw(self) -> None:
+        """Draw the line, if there is one."""
+        if self._layer is not None:
+            self._layer.draw()
+
+    def delete(self) -> None:
+        """Take the line away."""
+        if self._layer is not None:
+            self._layer.delete()
+            self._layer = None
+
+
+def readout_values(
+    *,
+    ms: float,
+    stats: object,
+    wind: tuple[float, float],
+    state: str,
+    quality: str,
+    backend: str,
+    position: tuple[float, float, float],
+) -> dict[str, str]:
+    """The texts of the readout; wind is its speed in m/s and heading in degrees."""
+    get = lambda name: getattr(stats, name, 0)  # noqa: E731
+    used = str(get("quality"))
+    return {
+        "frame": f"{ms:.1f} ms   {1000.0 / max(ms, 0.01):.0f} fps",
+        "drops moved": f"{int(get('drops_moved')):,}".replace(",", "\u202f"),
+        "drops drawn": f"{int(get('drops_drawn')):,}".replace(",", "\u202f"),
+        "rain": str(get("mode")),
+        "rain here": f"{float(get('rain_rate_here')):.1f} mm/h",
+        "wind": f"{wind[0]:.1f} m/s to {compass(wind[1])}",
+        "sky": state,
+        "quality": used if quality in (used, "") else f"{quality}: {used}",
+        "engine": backend,
+        "position": "  ".join(f"{value:.1f}" for value in position) + " m",
+    }
+
+
+POINTS = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
+
+
+def compass(bearing: float) -> str:
+    """Name of a bearing in degrees from -z (north) over +x (east)."""
+    return POINTS[round(bearing / 45.0) % 8]

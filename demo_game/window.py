@@ -1,0 +1,316 @@
+"""The window: events in, pictures out. Import it only where there is a display."""
+
+from __future__ import annotations
+
+import time as clock
+from typing import Any
+
+import moderngl
+import numpy as np
+import pyglet
+from numpy.typing import NDArray
+from pyglet.gl import (
+    GL_CULL_FACE,
+    GL_DEPTH_TEST,
+    GL_PACK_ALIGNMENT,
+    GL_READ_FRAMEBUFFER,
+    GL_RGB,
+    GL_SCISSOR_TEST,
+    GL_UNSIGNED_BYTE,
+    glBindFramebuffer,
+    glBindVertexArray,
+    glDepthMask,
+    glDisable,
+    glPixelStorei,
+    glReadPixels,
+    glViewport,
+)
+from pyglet.window import key
+
+from demo_game.gamepad import Gamepads
+from demo_game.game import Game
+from demo_game.input import PRESET_KEYS, Controls
+from demo_game.pictures import save_screenshot
+from demo_game.settings import Settings
+from demo_game.ui.hud import compass
+from demo_game.ui.menu import MenuActions, pause_menu
+from demo_game.ui.minimap import MapPlace
+from demo_game.ui.overlay import Overlay, Screen
+
+TITLE = "The Walk"
+LONGEST_DT = 0.25  # s; a pause of the machine does not move the player on
+FASTEST = 1.0 / 120.0  # s between frames where the display does not set the pace
+SMALLEST = (320, 200)
+
+
+class GameWindow(pyglet.window.Window):
+    """The game in a window."""
+
+    def __init__(
+        self,
+        settings: Settings,
+        config: Any = None,
+        *,
+        size: tuple[int, int] = (1280, 720),
+        seed: int = 0,
+        preset: str = "heavy",
+    ) -> None:
+        self.screen_shown = Screen.START
+        self.ready = False
+        super().__init__(
+            *size, caption=TITLE, resizable=True, vsync=True, config=config, visible=False
+        )
+        self.set_minimum_size(*SMALLEST)
+        self.settings = settings
+        self.controls = Controls()
+        self.switch_to()
+        self._gl = moderngl.get_context()
+        self.game = Game(self._gl, settings, seed=seed, preset=preset)
+        menu = pause_menu(
+            settings,
+            MenuActions(
+                resume=self.resume,
+                settings_changed=self._settings_changed,
+                help=self._open_help,
+                quit=self.close,
+            ),
+        )
+        self._menu = menu
+        self._help_from = Screen.PAUSE
+        self.overlay = Overlay(menu, _map_place(self.game))
+        self._gamepads = Gamepads(self.controls, pause=self._toggle_pause)
+        self._ms = 16.0
+        self._last = clock.perf_counter()
+        self._wants_picture = False
+        self.ready = True
+        if settings.fullscreen:
+            self.set_fullscreen(True)
+        self._lay_out()
+        self.set_visible(True)
+
+    def play(self) -> None:
+        """Run until the window is closed."""
+        pyglet.clock.schedule_interval(self.frame, FASTEST)
+        pyglet.app.run(interval=None)
+
+    def shut(self) -> None:
+        """Give everything back; a second call does nothing."""
+        pyglet.clock.unschedule(self.frame)
+        if not self.ready:
+            return
+        self.ready = False
+        self._gamepads.close()
+        if self.context is not None:
+            self.switch_to()
+            self.overlay.delete()
+            self.game.close()
+            super().close()
+
+    def close(self) -> None:
+        """Close the window; the game's own things go first."""
+        if self.ready:
+            self.shut()
+        elif self.context is not None:
+            super().close()
+
+    # One frame
+
+    def frame(self, dt: float) -> None:
+        """Update and draw once."""
+        if not self.ready:
+            return
+        dt = min(max(dt, 0.0), LONGEST_DT)
+        self.overlay.update(dt)
+        if self.screen_shown is Screen.PLAY:
+            self.game.player.look(*self.controls.turn(dt))
+            self.game.update(dt, self.controls.intent())
+        elif self.screen_shown is Screen.START:
+            self.game.update(dt)
+        self.draw(dt)
+
+    def on_draw(self) -> None:
+        """Draw the place, the rain, and what lies over them."""
+        width, height = self.get_framebuffer_size()
+        if not self.ready or width < 1 or height < 1:
+            return
+        now = clock.perf_counter()
+        self._ms += 0.08 * ((now - self._last) * 1000.0 - self._ms)
+        self._last = now
+        screen = self._gl.detect_framebuffer(0)
+        screen.viewport = (0, 0, width, height)
+        self.game.draw(screen)
+        self._prepare_overlay(width, height)
+        self.overlay.draw(self.screen_shown, self.game, self._ms)
+        if self._wants_picture:
+            self._wants_picture = False
+            self.overlay.say(f"Saved {save_screenshot(self.picture())}")
+
+    def picture(self) -> NDArray[np.uint8]:
+        """What was drawn, shape (height, width, 3), top row first."""
+        width, height = self.get_framebuffer_size()
+        pixels = np.zeros((height, width, 3), np.uint8)
+        # moderngl's read asks for a colour attachment, which a window's framebuffer has not.
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, 0)
+        glPixelStorei(GL_PACK_ALIGNMENT, 1)
+        glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.ctypes.data)
+        return pixels[::-1]
+
+    def _prepare_overlay(self, width: int, height: int) -> None:
+        # pyglet's labels and shapes expect its own window block and no depth test.
+        for state in (GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST):
+            glDisable(state)
+        glDepthMask(True)
+        glBindVertexArray(0)
+        glViewport(0, 0, width, height)
+        self.ubo.bind()
+
+    # Screens
+
+    def resume(self) -> None:
+        """Go on playing."""
+        if self.screen_shown is Screen.START:
+            self.overlay.say("F1 help")
+        self._show(Screen.PLAY)
+
+    def pause(self) -> None:
+        """Stop and show the menu; from the start screen or the help page nothing changes."""
+        if self.screen_shown is Screen.PLAY:
+            self._menu.chosen = 0
+            self._show(Screen.PAUSE)
+
+    def _toggle_pause(self) -> None:
+        if self.screen_shown is Screen.PLAY:
+            self.pause()
+        else:
+            self.resume()
+
+    def _open_help(self) -> None:
+        self._help_from = self.screen_shown
+        self._show(Screen.HELP)
+
+    def _show(self, screen: Screen) -> None:
+        self.screen_shown = screen
+        self.controls.clear()
+        self.set_exclusive_mouse(screen is Screen.PLAY)
+
+    def _settings_changed(self, field: str) -> None:
+        if field == "fullscreen":
+            self.set_fullscreen(self.settings.fullscreen)
+        else:
+            self.switch_to()
+            self.game.settings_changed(field)
+
+    # Events
+
+    def on_key_press(self, symbol: int, modifiers: int) -> bool:
+        """A key for the screen that is shown, or for any of them."""
+        name = key.symbol_string(symbol)
+        if name == "F1":
+            self._back() if self.screen_shown is Screen.HELP else self._open_help()
+        elif name == "F3":
+            self.overlay.show_readout = not self.overlay.show_readout
+        elif name == "F11":
+            self.settings.fullscreen = not self.settings.fullscreen
+            self._settings_changed("fullscreen")
+        elif name == "F12":
+            self._wants_picture = True
+        elif self.screen_shown is Screen.START:
+            if name in ("RETURN", "ENTER", "NUM_ENTER", "SPACE"):
+                self.resume()
+            elif name == "ESCAPE":
+                self.close()
+        elif self.screen_shown is Screen.HELP:
+            if name == "ESCAPE":
+                self._back()
+        elif self.screen_shown is Screen.PAUSE:
+            if name == "ESCAPE":
+                self.resume()
+            else:
+                self._menu.key(name)
+        elif name == "ESCAPE":
+            self.pause()
+        else:
+            self._play_key(name)
+        return True  # pyglet's own handler closes the window on Escape
+
+    def on_key_release(self, symbol: int, modifiers: int) -> None:
+        """A key came up."""
+        self.controls.release(key.symbol_string(symbol))
+
+    def _back(self) -> None:
+        self._show(self._help_from)
+
+    def _play_key(self, name: str) -> None:
+        game = self.game
+        if name in PRESET_KEYS:
+            preset = PRESET_KEYS[name]
+            self.overlay.say(game.choose_preset(preset))
+        elif name in ("BRACKETLEFT", "BRACKETRIGHT"):
+            self.overlay.say(game.blow(1 if name == "BRACKETRIGHT" else -1))
+        elif name in ("COMMA", "PERIOD"):
+            towards = compass(game.turn_wind(1 if name == "COMMA" else -1))
+            self.overlay.say(f"Wind to the {towards}")
+        elif name == "T":
+            game.sky.next()
+            self.overlay.say(game.sky.name.capitalize())
+        elif name == "M":
+            self.overlay.show_map = not self.overlay.show_map
+        else:
+            self.controls.press(name)
+
+    def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
+        """Look, or point at a row of the menu."""
+        if self.screen_shown is Screen.PLAY:
+            speed = self.settings.look_speed
+            rise = -dy if self.settings.invert else dy
+            self.game.player.look(-dx * speed, rise * speed)
+        elif self.screen_shown is Screen.PAUSE:
+            self._menu.point(self.overlay.pause_view.row_at(x, y))
+
+    def on_mouse_drag(
+        self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int
+    ) -> None:
+        """The same with a button held."""
+        self.on_mouse_motion(x, y, dx, dy)
+
+    def on_mouse_press(self, x: int, y: int, button: int, modifiers: int) -> None:
+        """Begin, choose, or close the help page."""
+        if self.screen_shown is Screen.START:
+            self.resume()
+        elif self.screen_shown is Screen.HELP:
+            self._back()
+        elif self.screen_shown is Screen.PAUSE:
+            view = self.overlay.pause_view
+            self._menu.click(view.row_at(x, y), view.side_at(x))
+
+    def on_deactivate(self) -> None:
+        """Another window has the keys now."""
+        if self.ready:
+            self.controls.clear()
+            self.pause()
+
+    def on_resize(self, width: int, height: int) -> None:
+        """Lay out for the new size; a minimised window has none."""
+        super().on_resize(width, height)
+        if self.ready:
+            self._lay_out()
+
+    def on_close(self) -> None:
+        """The window's own close button."""
+        self.close()
+
+    def _lay_out(self) -> None:
+        if self.width >= 1 and self.height >= 1:
+            ratio = self.get_framebuffer_size()[0] / self.width
+            self.overlay.resize(self.width, self.height, ratio)
+
+
+def _map_place(game: Game) -> MapPlace:
+    place = game.place
+    return MapPlace(
+        way=[tuple(point) for point in place.path[::2].tolist()],
+        cabin=(place.room[0], place.room[2]),
+        pond=place.pond.center,
+        pond_radii=place.pond.radii,
+        marks=[(place.mailbox[0], place.mailbox[2])],
+    )
