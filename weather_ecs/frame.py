@@ -99,7 +99,7 @@ class ContainerData:
     shape: tuple[float, float, float, float]  # forward, lateral reach, bottom, height, m
     area_axis: tuple[float, float, float, float]
     area_shape: tuple[float, float, float, float]  # a, b, soft edge, ceiling, m
-    law: tuple[float, float, float, float]  # of the diameters: slope, exp(-0.5 s), exp(-6 s), 0
+    law: tuple[float, float, float, float]  # of the diameters: slope, 1 - exp(-5.5 slope), 0, 0
     load: float  # real drops that one drop stands for, over d / weight_shape(d)
     count: float  # drops in use
     size_scale: float  # 1 near, more for far rain

@@ -44,9 +44,9 @@ def shape_of(container: Container) -> tuple[float, float, float, float]:
 
 
 def law_of(rain_rate: float) -> tuple[float, float, float, float]:
-    """(slope in 1/mm, exp(-0.5 slope), exp(-6 slope), 0) of Marshall and Palmer's distribution."""
+    """(slope in 1/mm, 1 - exp(-5.5 slope), 0, 0) of Marshall and Palmer's distribution."""
     slope = 4.1 * max(rain_rate, 1e-3) ** -0.21
-    return (slope, math.exp(-0.5 * slope), math.exp(-6.0 * slope), 0.0)
+    return (slope, -math.expm1(-5.5 * slope), 0.0, 0.0)
 
 
 def hash_word(x: NDArray[np.uint32]) -> NDArray[np.uint32]:
@@ -114,8 +114,8 @@ def ring(q: NDArray, moved: NDArray, s: NDArray) -> tuple[NDArray, NDArray]:
 
 def diameters(quantile: NDArray, law: tuple[float, ...]) -> NDArray:
     """Diameters in mm, (n,), of size quantiles."""
-    slope, low, high = F(law[0]), F(law[1]), F(law[2])
-    return (-np.log(low - quantile * (low - high)) / slope).astype(F)
+    left = np.maximum(F(1.0) - quantile * F(law[1]), F(1e-7))
+    return np.minimum(F(0.5) - np.log(left) / F(law[0]), F(6.0)).astype(F)
 
 
 def fall_speeds(diameter: NDArray) -> NDArray:

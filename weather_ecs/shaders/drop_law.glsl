@@ -1,10 +1,10 @@
 // Laws of one drop. D: diameter in mm, v: speed in m/s, L: Marshall and Palmer's slope in 1/mm.
-// law = (L, exp(-0.5 L), exp(-6 L), 0).
+// law = (L, 1 - exp(-5.5 L), 0, 0).
 
 // Inverse of the distribution of diameters in the air, between 0.5 and 6 mm.
 float drop_diameter(float quantile, vec4 law)
 {
-    return -log(law.y - quantile * (law.y - law.z)) / law.x;
+    return min(0.5 - log(max(1.0 - quantile * law.y, 1e-7)) / law.x, 6.0);
 }
 
 // Terminal speed, the fit of Atlas et al. (1973).
