@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any, Protocol, TypeVar
 
 import moderngl
 import pytest
-
+from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.gl import GL
 
 NAMES = range(1, 1024)  # drivers hand out the lowest free name
@@ -23,12 +25,23 @@ Thing = TypeVar("Thing", bound=Releasable)
 
 
 def living(gl: GL) -> dict[str, set[int]]:
-    """Names of the OpenGL objects there are, by kind."""
+    """Names of the OpenGL objects there are, by kind.
+
+    A deleted program does not count: Mesa keeps one for as long as any shader stage remembers it.
+    """
+    status = ctypes.c_int()
+
+    def kept(is_one: Callable[[int], int], get: Callable[[int, int, int], None], name: int) -> bool:
+        if not is_one(name):
+            return False
+        get(name, e.DELETE_STATUS, ctypes.addressof(status))
+        return status.value == 0
+
     kinds: dict[str, Callable[[int], int]] = {
         "buffer": gl.glIsBuffer,
         "texture": gl.glIsTexture,
-        "program": gl.glIsProgram,
-        "shader": gl.glIsShader,
+        "program": partial(kept, gl.glIsProgram, gl.glGetProgramiv),
+        "shader": partial(kept, gl.glIsShader, gl.glGetShaderiv),
         "vertex array": gl.glIsVertexArray,
         "framebuffer": gl.glIsFramebuffer,
         "renderbuffer": gl.glIsRenderbuffer,
@@ -36,31 +49,6 @@ def living(gl: GL) -> dict[str, set[int]]:
         "query": gl.glIsQuery,
     }
     return {kind: {name for name in NAMES if there(name)} for kind, there in kinds.items()}
-
-
-@pytest.fixture(scope="session")
-def shared_context() -> Iterator[moderngl.Context]:
-    """The context of this process; use `ctx`, which watches it."""
-    settings: dict[str, Any] = {"backend": "egl"} if sys.platform.startswith("linux") else {}
-    context = moderngl.create_context(standalone=True, require=330, **settings)
-    yield context
-    context.release()
-
-
-@pytest.fixture
-def ctx(shared_context: moderngl.Context) -> Iterator[moderngl.Context]:
-    """A clean context; afterwards no error may be pending and nothing new may be alive."""
-    with shared_context:
-        gl = GL()
-        rest(shared_context, gl)
-        before = living(gl)
-        yield shared_context
-        error = gl.error()
-        rest(shared_context, gl)
-        after = living(gl)
-    left = {kind: sorted(after[kind] - before[kind]) for kind in after if after[kind] - before[kind]}
-    assert error == 0, f"OpenGL error {error:#06x} pending after the test"
-    assert not left, f"OpenGL objects left alive: {left}"
 
 
 def rest(context: moderngl.Context, gl: GL) -> None:
@@ -73,10 +61,36 @@ def rest(context: moderngl.Context, gl: GL) -> None:
         pass
 
 
+@pytest.fixture(scope="session")
+def watched() -> Iterator[tuple[moderngl.Context, GL]]:
+    """The context of this process; use `ctx`, which watches it."""
+    settings: dict[str, Any] = {"backend": "egl"} if sys.platform.startswith("linux") else {}
+    context = moderngl.create_context(standalone=True, require=330, **settings)
+    yield context, GL()
+    context.release()
+
+
 @pytest.fixture
-def gl(ctx: moderngl.Context) -> GL:
+def ctx(watched: tuple[moderngl.Context, GL]) -> Iterator[moderngl.Context]:
+    """A clean context; afterwards no error may be pending and nothing new may be alive."""
+    context, gl = watched
+    with context:
+        rest(context, gl)
+        before = living(gl)
+        yield context
+        error = gl.error()
+        after = living(gl)
+        rest(context, gl)
+    new = {kind: sorted(after[kind] - before[kind]) for kind in after}
+    left = {kind: names for kind, names in new.items() if names}
+    assert error == 0, f"OpenGL error {error:#06x} pending after the test"
+    assert not left, f"OpenGL objects left alive: {left}"
+
+
+@pytest.fixture
+def gl(ctx: moderngl.Context, watched: tuple[moderngl.Context, GL]) -> GL:
     """Raw entry points of `ctx`."""
-    return GL()
+    return watched[1]
 
 
 @pytest.fixture

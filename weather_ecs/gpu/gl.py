@@ -95,6 +95,8 @@ class GL:
     glUseProgram: Callable[[U], None]
     glIsProgram: Callable[[U], B]
     glIsShader: Callable[[U], B]
+    glGetProgramiv: Callable[[U, U, P], None]
+    glGetShaderiv: Callable[[U, U, P], None]
     glGetUniformBlockIndex: Callable[[U, S], U]
     glUniformBlockBinding: Callable[[U, U, U], None]
     glGetUniformIndices: Callable[[U, I, P, P], None]

@@ -117,6 +117,7 @@ LINE: Final = 0x1B01
 FILL: Final = 0x1B02
 NEAREST: Final = 0x2600
 NONE: Final = 0
+DELETE_STATUS: Final = 0x8B80
 POINTS: Final = 0x0000
 LINES: Final = 0x0001
 TRIANGLES: Final = 0x0004
