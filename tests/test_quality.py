@@ -75,7 +75,9 @@ def machine(cost: float, other: float, sync: bool = False, noise: float = 0.0) -
 
 
 def steps_are_small(trace: list[float]) -> bool:
-    return all(abs(b / a - 1.0) <= AutoQuality.RATE + 1e-12 for a, b in zip(trace, trace[1:], strict=False))
+    return all(
+        abs(b / a - 1.0) <= AutoQuality.RATE + 1e-12 for a, b in zip(trace, trace[1:], strict=False)
+    )
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.1, 0.3])

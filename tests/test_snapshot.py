@@ -226,9 +226,7 @@ numbers = st.floats(-1e7, 1e7)
         st.builds(
             RainArea,
             st.tuples(numbers, numbers),
-            st.tuples(st.floats(1e-3, 1e6), st.floats(1e-3, 1e6)).map(
-                lambda r: (max(r), min(r))
-            ),
+            st.tuples(st.floats(1e-3, 1e6), st.floats(1e-3, 1e6)).map(lambda r: (max(r), min(r))),
             st.floats(0, 1e4),
             st.floats(allow_nan=False, allow_infinity=False),
             st.floats(0, 1e6),

@@ -83,9 +83,12 @@ class AutoQuality:
 
         A frame that says nothing (no or an absurd duration, a pause, no weather) changes nothing.
         """
-        weather = gpu_ms + cpu_ms
-        sane = 0.0 < frame_ms <= self.LONGEST and 0.0 < weather <= self.LONGEST
-        if not sane or gpu_ms < 0.0 or cpu_ms < 0.0:  # NaN fails the comparisons of `sane`
+        # Written so that NaN, too, is no frame.
+        if not (0.0 < frame_ms <= self.LONGEST and gpu_ms >= 0.0 and cpu_ms >= 0.0):
+            return self.budget
+        # The two run side by side; where the CPU draws, they are the same time counted twice.
+        weather = max(gpu_ms, cpu_ms)
+        if not 0.0 < weather <= self.LONGEST:
             return self.budget
         self._frames.append(frame_ms)
         self._costs.append(weather / self.budget)

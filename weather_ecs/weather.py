@@ -204,6 +204,8 @@ class Weather:
         from weather_ecs.gpu.renderer import Renderer
 
         if self._window is not None:
+            if not hasattr(self._window, "switch_to"):
+                raise InvalidValueError("window", self._window, "a pyglet window or None")
             if self._window.context is None:
                 raise ContextError("the window is closed")
             _make_current(self._window)
