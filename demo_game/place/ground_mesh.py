@@ -1,0 +1,136 @@
+"""Meshes of the ground: the walkable grid in chunks, the hills around it, the pond's sheet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import layout, palette
+from .noise import smoothstep
+from .terrain import Terrain
+
+CHUNK = 12  # cells along a chunk's side
+HILL_RINGS = (330.0, 420.0, 520.0, 640.0, 780.0, 950.0, 1150.0, 1400.0, 1700.0, 2100.0, 2600.0)
+HILL_SECTORS = 288
+CHUNK_SECTORS = 24
+
+
+@dataclass(frozen=True)
+class GroundMesh:
+    """The ground's triangles; chunks are (first index, count) with their boxes."""
+
+    vertices: NDArray  # (n, 3) f4, m
+    normals: NDArray  # (n, 3) f4
+    colors: NDArray  # (n, 3) f4, linear albedo where the painted map does not reach
+    painted: NDArray  # (n,) f4, 1 where the painted map holds
+    indices: NDArray  # (m, 3) u4
+    chunks: NDArray  # (c, 2) first triangle, triangles
+    low: NDArray  # (c, 3) m
+    high: NDArray
+
+
+def wild_color(terrain: Terrain, x: NDArray, z: NDArray) -> NDArray:
+    """(..., 3) albedo of the land beyond the meadow: grass, heath, woods."""
+    noise = terrain.noise
+    out = np.hypot(x, z + 40.0)[..., None]
+    dry = noise.fbm(x / 90.0, z / 90.0, 3)[..., None]
+    color = palette.GRASS + (palette.GRASS_DRY - palette.GRASS) * np.clip(dry + 0.3, 0, 1)
+    heath = smoothstep(0.05, 0.35, noise.fbm(x / 260.0 + 9, z / 260.0, 3))[..., None]
+    color = color + (palette.HEATH - color) * heath * smoothstep(200.0, 600.0, out)
+    wood = smoothstep(-0.02, 0.10, noise.fbm(x / 330.0, z / 330.0 + 4, 4))[..., None]
+    return color + (palette.FOREST - color) * wood * smoothstep(170.0, 330.0, out) * 0.9
+
+
+def _normals(points: NDArray, triangles: NDArray) -> NDArray:
+    flat = np.cross(
+        points[triangles[:, 1]] - points[triangles[:, 0]],
+        points[triangles[:, 2]] - points[triangles[:, 0]],
+    )
+    normals = np.zeros_like(points)
+    for k in range(3):
+        np.add.at(normals, triangles[:, k], flat)
+    return normals / np.linalg.norm(normals, axis=1, keepdims=True)
+
+
+def _grid(terrain: Terrain) -> tuple[NDArray, NDArray, list[NDArray]]:
+    gx, gz = np.meshgrid(terrain.xs, terrain.zs)
+    points = np.stack([gx, terrain.heights, gz], -1).reshape(-1, 3)
+    columns = len(terrain.xs)
+    chunks = []
+    for j0 in range(0, len(terrain.zs) - 1, CHUNK):
+        for i0 in range(0, columns - 1, CHUNK):
+            i, j = np.meshgrid(
+                np.arange(i0, min(i0 + CHUNK, columns - 1)),
+                np.arange(j0, min(j0 + CHUNK, len(terrain.zs) - 1)),
+            )
+            a = (j * columns + i).ravel()
+            b, c, d = a + 1, a + columns, a + columns + 1
+            chunks.append(np.stack([a, c, b, b, c, d], 1).reshape(-1, 3))
+    return points, np.concatenate(chunks), chunks
+
+
+def _hills(terrain: Terrain) -> tuple[NDArray, NDArray, list[NDArray]]:
+    angle = np.linspace(0.0, 2.0 * np.pi, HILL_SECTORS + 1)
+    r, a = np.meshgrid(np.array(HILL_RINGS), angle, indexing="ij")
+    x, z = r * np.sin(a), r * np.cos(a) - 40.0
+    y = terrain.surface(x, z)
+    inside = (x > terrain.xs[0]) & (x < terrain.xs[-1])
+    inside &= (z > terrain.zs[0]) & (z < terrain.zs[-1])
+    y = np.where(inside, y - 9.0, y)  # below the grid where the grid is
+    points = np.stack([x, y, z], -1).reshape(-1, 3)
+    n = HILL_SECTORS + 1
+    chunks = []
+    for k in range(0, HILL_SECTORS, CHUNK_SECTORS):
+        i, j = np.meshgrid(np.arange(k, k + CHUNK_SECTORS), np.arange(len(HILL_RINGS) - 1))
+        a0 = (j * n + i).ravel()
+        b, c, d = a0 + 1, a0 + n, a0 + n + 1
+        chunks.append(np.stack([a0, c, b, b, c, d], 1).reshape(-1, 3))
+    return points, np.concatenate(chunks), chunks
+
+
+def ground_mesh(terrain: Terrain, painted_low: NDArray, painted_high: NDArray) -> GroundMesh:
+    """The whole ground; `painted_low`, `painted_high` are the painted map's corners (x, z)."""
+    near, near_tri, near_chunks = _grid(terrain)
+    far, far_tri, far_chunks = _hills(terrain)
+    normals = np.concatenate([_normals(near, near_tri), _normals(far, far_tri)])
+    points = np.concatenate([near, far])
+    chunks = near_chunks + [c + len(near) for c in far_chunks]
+    x, z = points[:, 0], points[:, 2]
+    inside = np.minimum.reduce(
+        [x - painted_low[0], painted_high[0] - x, z - painted_low[1], painted_high[1] - z]
+    )
+    boxes = [points[np.unique(c)] for c in chunks]
+    counts = np.array([len(c) for c in chunks])
+    first = np.concatenate([[0], np.cumsum(counts)[:-1]])
+    return GroundMesh(
+        points.astype("f4"),
+        normals.astype("f4"),
+        wild_color(terrain, x, z).astype("f4"),
+        smoothstep(2.0, 26.0, inside).astype("f4"),
+        np.concatenate(chunks).astype("u4"),
+        np.stack([first, counts], 1),
+        np.array([b.min(0) for b in boxes]),
+        np.array([b.max(0) for b in boxes]),
+    )
+
+
+def pond_mesh(terrain: Terrain, step: float = 1.0) -> tuple[NDArray, NDArray]:
+    """(n, 4) f4 water vertices (x, y, z, depth m) and (m, 3) triangles, to just past the shore."""
+    reach = np.array(layout.POND_RADII) * 1.35
+    xs = np.arange(-reach[0], reach[0] + step, step) + layout.POND[0]
+    zs = np.arange(-reach[1], reach[1] + step, step) + layout.POND[1]
+    gx, gz = np.meshgrid(xs, zs)
+    level = terrain.pond_level
+    depth = level - np.asarray(terrain.height(gx, gz))
+    depth = np.where(terrain.pond_radius(gx, gz) < 1.3, depth, -1.0)
+    columns = len(xs)
+    i, j = np.meshgrid(np.arange(columns - 1), np.arange(len(zs) - 1))
+    a = (j * columns + i).ravel()
+    quads = np.stack([a, a + columns, a + 1, a + 1, a + columns, a + columns + 1], 1)
+    triangles = quads.reshape(-1, 3)
+    triangles = triangles[(depth.ravel()[triangles] > 0.0).any(axis=1)]
+    used, back = np.unique(triangles, return_inverse=True)
+    vertices = np.stack([gx, np.full_like(gx, level), gz, depth], -1).reshape(-1, 4)[used]
+    return vertices.astype("f4"), back.reshape(-1, 3).astype("u4")

@@ -1,0 +1,35 @@
+"""The light and air a scene is drawn in."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+Color = tuple[float, float, float]  # linear RGB
+# (center (x, z) m, radii (a, b) m, heading rad, rain rate mm/h, ceiling m)
+RainPatch = tuple[tuple[float, float], tuple[float, float], float, float, float]
+
+
+@dataclass
+class Environment:
+    """What the game tells the renderer each frame; the defaults are a late afternoon."""
+
+    sun_direction: Color = (-0.66, 0.42, 0.62)  # towards the sun; need not be unit
+    sun_color: Color = (1.0, 0.86, 0.66)
+    zenith_color: Color = (0.20, 0.32, 0.52)
+    horizon_color: Color = (0.62, 0.68, 0.74)
+    ground_color: Color = (0.19, 0.18, 0.14)
+    overcast: float = 0.35  # 0..1
+    wetness: float = 0.0  # 0..1, everywhere; rain areas add their own
+    fog_density: float = 1.0 / 1400.0  # 1/m
+    fog_color: Color = (0.60, 0.66, 0.72)
+    rain_areas: Sequence[RainPatch] = field(default_factory=list)
+    wind: tuple[float, float, float] = (2.0, 0.0, 0.6)  # m/s
+    lamps: float | None = None  # 0..1, how bright lamps burn; None: as the daylight asks
+
+    def lamp_strength(self) -> float:
+        """How bright the lamps burn, 0..1."""
+        if self.lamps is not None:
+            return self.lamps
+        bright = sum(self.horizon_color) / 3.0 + 0.6 * sum(self.sun_color) / 3.0
+        return min(max(1.15 - 0.8 * bright, 0.3), 1.0)

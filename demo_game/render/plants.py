@@ -1,0 +1,146 @@
+"""Trees in three levels of detail, instanced; grass in patches."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from demo_game.place import Place, bake, flora
+from demo_game.place.scatter import VARIANTS
+
+from . import geometry
+from .frame_block import FrameBlock
+from .geometry import VERTEX_FORMAT, VERTEX_NAMES
+from .programs import compile_program, set_matrix
+from .quality import Quality
+
+SHAPES = 3 * VARIANTS
+INSTANCE_FORMAT = "4f4 4f4/i"
+
+
+class Trees:
+    """Every tree; each frame those seen are sorted by shape and level."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
+        self.program = compile_program(ctx, "object.vert", "object.frag", "TREES")
+        self.shadow = compile_program(ctx, "shadow.vert", "shadow.frag", "TREES")
+        block.attach(self.program)
+        trees = place.trees
+        self._shape = trees.shape
+        self._center = trees.foot + np.outer(trees.height, (0.0, 0.5, 0.0))
+        self._radius = trees.height * 0.56
+        self._far = trees.far
+        up = np.zeros_like(self._center) + (0.0, 1.0, 0.0)
+        points = trees.foot + (0.0, 2.0, 0.0)
+        lamps = [(lamp.position, max(lamp.color)) for lamp in place.lamps]
+        light = bake.lamp_light(points, up, lamps, [])
+        tint = 0.86 + 0.28 * np.random.default_rng(place.seed + 9).random(len(light))
+        self._rows = np.column_stack(
+            [trees.foot, trees.height, np.cos(trees.turn), np.sin(trees.turn), light, tint]
+        ).astype("f4")
+        self._meshes: list[list[moderngl.Buffer]] = []
+        self._instances: list[moderngl.Buffer] = []
+        self._arrays: list[moderngl.VertexArray] = []
+        self._last: list[bytes] = [b""] * (SHAPES * flora.LEVELS)
+        self._shadow_arrays: list[tuple[moderngl.VertexArray, int, moderngl.Buffer]] = []
+        for shape in range(SHAPES):
+            count = max(int((trees.shape == shape).sum()), 1)
+            for level in range(flora.LEVELS):
+                mesh = place.tree_mesh(shape, level)
+                vertices = ctx.buffer(geometry.pack(mesh).tobytes())
+                indices = ctx.buffer(mesh.indices.tobytes())
+                instances = ctx.buffer(reserve=count * 32, dynamic=True)
+                content = [(vertices, VERTEX_FORMAT, *VERTEX_NAMES)]
+                content.append((instances, INSTANCE_FORMAT, "in_foot", "in_turn"))
+                self._arrays.append(ctx.vertex_array(self.program, content, indices))
+                self._meshes.append([vertices, indices])
+                self._instances.append(instances)
+            near = self._rows[(trees.shape == shape) & ~trees.far]
+            if len(near):
+                vertices, indices = self._meshes[-2]
+                whole = ctx.buffer(near.tobytes())
+                content = [(vertices, "3f4 16x1", "in_position")]
+                content.append((whole, INSTANCE_FORMAT, "in_foot", "in_turn"))
+                array = ctx.vertex_array(self.shadow, content, indices)
+                self._shadow_arrays.append((array, len(near), whole))
+
+    def draw(self, planes: NDArray, camera: NDArray, quality: Quality, lowest: int = 0) -> None:
+        """Draw what is seen; `lowest` is the finest level allowed."""
+        offset = self._center - camera
+        away = np.sqrt(np.einsum("ij,ij->i", offset, offset))
+        reach = self._center @ planes[:, :3].T + planes[:, 3]
+        seen = np.flatnonzero((reach > -self._radius[:, None]).all(axis=1))
+        if not len(seen):
+            return
+        level = (away > quality.near_trees).astype("i8") + (away > quality.middle_trees)
+        level[self._far] = 2
+        np.maximum(level, lowest, out=level)
+        group = self._shape[seen] * flora.LEVELS + level[seen]
+        order = np.lexsort((away[seen], group))
+        seen, group = seen[order], group[order]
+        starts = np.flatnonzero(np.diff(group, prepend=-1))
+        ends = np.append(starts[1:], len(group))
+        batches = []
+        for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
+            slot = int(group[start])
+            batches.append((float(away[seen[start]]), slot, end - start))
+            raw = self._rows[seen[start:end]].tobytes()
+            if raw != self._last[slot]:
+                self._instances[slot].write(raw)
+                self._last[slot] = raw
+        for _, slot, count in sorted(batches):
+            self._arrays[slot].render(instances=count)
+
+    def draw_shadow(self, matrix: NDArray) -> None:
+        """Draw those of the place itself from the sun."""
+        set_matrix(self.shadow, "light_matrix", matrix)
+        for array, count, _ in self._shadow_arrays:
+            array.render(instances=count)
+
+    def release(self) -> None:
+        """Give everything back."""
+        for array, _, whole in self._shadow_arrays:
+            array.release()
+            whole.release()
+        for item in [*self._arrays, *self._instances, *(b for m in self._meshes for b in m)]:
+            item.release()
+        self.program.release()
+        self.shadow.release()
+
+
+class Meadow:
+    """Grass near the camera; patches thin out with distance."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
+        self.program = compile_program(ctx, "grass.vert", "grass.frag")
+        block.attach(self.program)
+        grass = place.grass
+        n = len(grass.vertices)
+        data = np.zeros(n, [("position", "f4", 3), ("color", "u1", 4), ("root", "f4", 4)])
+        data["position"] = grass.vertices
+        data["color"][:, :3] = np.round(np.sqrt(np.clip(grass.colors, 0, 1)) * 255)
+        data["color"][:, 3] = np.round(grass.sway * 255)
+        data["root"][:, :3] = grass.roots
+        lamps = [(lamp.position, max(lamp.color)) for lamp in place.lamps]
+        up = np.zeros((n, 3)) + (0.0, 1.0, 0.0)
+        data["root"][:, 3] = bake.lamp_light(grass.roots.astype("f8"), up, lamps, []) / 4.0
+        self._patches, self._centers = grass.patches, grass.centers
+        self._vertices = ctx.buffer(data.tobytes())
+        content = [(self._vertices, "3f4 4f1 4f4", "in_position", "in_color", "in_root")]
+        self._array = ctx.vertex_array(self.program, content)
+
+    def draw(self, planes: NDArray, camera: NDArray, quality: Quality) -> None:
+        """Draw the patches within reach."""
+        reach = quality.grass_reach
+        self.program["reach"] = (reach * 0.6, reach)
+        away = np.linalg.norm(self._centers - camera, axis=1)
+        side = self._centers @ planes[:, :3].T + planes[:, 3]
+        seen = (side > -12.0).all(axis=1) & (away < reach + 9.0)
+        for first, count in self._patches[seen].tolist():
+            self._array.render(moderngl.TRIANGLES, vertices=count, first=first)
+
+    def release(self) -> None:
+        """Give everything back."""
+        for item in (self._array, self._vertices, self.program):
+            item.release()

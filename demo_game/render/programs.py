@@ -1,0 +1,51 @@
+"""Shaders of the game: read from the package, includes resolved, compiled."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from importlib import resources
+
+import moderngl
+from numpy.typing import NDArray
+
+_INCLUDE = re.compile(r'^#include "([\w.]+)"$')
+
+
+@cache
+def source(name: str) -> str:
+    """Text of a shader file with its includes; each file is taken in once."""
+    return "\n".join(_lines(name, set()))
+
+
+def _lines(name: str, seen: set[str]) -> list[str]:
+    if name in seen:
+        return []
+    seen.add(name)
+    text = resources.files("demo_game").joinpath("shaders", name).read_text(encoding="utf-8")
+    found: list[str] = []
+    for line in text.splitlines():
+        match = _INCLUDE.match(line)
+        found += _lines(match.group(1), seen) if match else [line]
+    return found
+
+
+def compile_program(
+    ctx: moderngl.Context, vertex: str, fragment: str, *defines: str
+) -> moderngl.Program:
+    """A program of two shader files under some defines."""
+    head = "#version 330 core\n" + "".join(f"#define {name}\n" for name in defines)
+    return ctx.program(vertex_shader=head + source(vertex), fragment_shader=head + source(fragment))
+
+
+def set_uniforms(program: moderngl.Program, **values: object) -> None:
+    """Set those uniforms that the compiler kept."""
+    for name, value in values.items():
+        if name in program:
+            program[name] = value
+
+
+def set_matrix(program: moderngl.Program, name: str, *matrices: NDArray) -> None:
+    """Set a matrix uniform, or an array of them, from (4, 4) arrays that act on columns."""
+    raw = b"".join(m.T.astype("f4").tobytes() for m in matrices)
+    program[name].write(raw)  # type: ignore[union-attr]

@@ -1,0 +1,159 @@
+"""`SceneRenderer`: draws the place and its sky into a framebuffer."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from demo_game.place import Place, paint
+
+from . import geometry
+from .environment import Environment
+from .frame_block import FrameBlock, as_matrix, unit
+from .ground import Ground
+from .plants import Meadow, Trees
+from .programs import set_uniforms
+from .quality import level
+from .shadows import Shadows
+from .sky import Sky
+from .statics import Actors, Statics
+from .water import Halos, Water
+
+SHADOW_UNIT, DETAIL_UNIT, MEADOW_UNIT, SKY_UNIT, MIRROR_UNIT = range(5)
+MOVING_SHADOWS = 140.0  # m from the camera
+POND_MIRROR = 70.0  # m, up to which the pond mirrors more than the sky
+
+
+class SceneRenderer:
+    """The game's own renderer: one pass, near to far, the sky last, then what is blended."""
+
+    def __init__(self, ctx: moderngl.Context, place: Place, quality: str = "medium") -> None:
+        self.ctx, self.place = ctx, place
+        self._quality_name, self._quality = quality, level(quality)
+        self._block = FrameBlock(ctx)
+        self._ground = Ground(ctx, self._block, place)
+        self._statics = Statics(ctx, self._block, place)
+        self._actors = Actors(ctx, self._block, place)
+        self._trees = Trees(ctx, self._block, place)
+        self._meadow = Meadow(ctx, self._block, place)
+        self._water = Water(ctx, self._block, place)
+        self._halos = Halos(ctx, self._block, place)
+        table = paint.detail()
+        self._detail = ctx.texture((table.shape[1], table.shape[0]), 4, table.tobytes())
+        self._detail.build_mipmaps()
+        self._detail.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+        self._mirror = ctx.texture((1, 1), 4, b"\0" * 4)
+        units = {"shadow_map": SHADOW_UNIT, "detail_map": DETAIL_UNIT}
+        for program in (self._statics.program, self._actors.program, self._trees.program,
+                        self._meadow.program):  # fmt: skip
+            set_uniforms(program, **units)
+        self._make_sized()
+        self._released = False
+
+    @property
+    def quality(self) -> str:
+        """Name of the level; assigning another takes effect at the next frame."""
+        return self._quality_name
+
+    @quality.setter
+    def quality(self, name: str) -> None:
+        before, self._quality, self._quality_name = self._quality, level(name), name
+        if self._quality != before:
+            self._shadows.release()
+            self._sky.release()
+            self._make_sized()
+
+    def _make_sized(self) -> None:
+        self._shadows = Shadows(self.ctx, self._quality.shadow_size)
+        q = self._quality
+        self._sky = Sky(self.ctx, self._block, q.sky_size, q.sky_rows)
+
+    def draw(
+        self,
+        framebuffer: moderngl.Framebuffer | None,
+        view: Any,
+        projection: Any,
+        time: float,
+        environment: Environment,
+    ) -> None:
+        """Clear and draw the whole picture; None draws into the framebuffer now bound.
+
+        Matrices are 16 column-major floats or (4, 4) arrays that act on columns; time in s.
+        """
+        target = self.ctx.detect_framebuffer() if framebuffer is None else framebuffer
+        viewport = target.viewport
+        v, p = as_matrix(view), as_matrix(projection)
+        camera = self._block.camera(v, p)
+        planes = geometry.frustum_planes(p @ v)
+        sun = unit(environment.sun_direction)
+        self._actors.pose(time)
+        self._update_shadows(sun, camera)
+        self._block.fill(time, environment, self._shadows.lookup)
+        self._block.upload()
+        self._sky.paint(camera, environment)
+        target.use()
+        target.viewport = viewport
+        target.scissor = None
+        target.depth_mask = True
+        target.clear(0.0, 0.0, 0.0, 1.0)
+        self._draw_solid(planes, camera, environment)
+        self._sky.draw(v, p)
+        self._draw_blended(target, viewport, v, planes, camera)
+
+    def _bind_maps(self) -> None:
+        self._shadows.live.use(SHADOW_UNIT)
+        self._detail.use(DETAIL_UNIT)
+        self._ground.map.use(MEADOW_UNIT)
+        self._sky.map.use(SKY_UNIT)
+        self._mirror.use(MIRROR_UNIT)
+
+    def _draw_solid(self, planes: NDArray, camera: NDArray, environment: Environment) -> None:
+        ctx, quality = self.ctx, self._quality
+        self._bind_maps()
+        ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        ctx.depth_func, ctx.front_face, ctx.cull_face = "<=", "ccw", "back"
+        self._statics.draw(planes, camera)
+        self._actors.draw(planes, camera)
+        ctx.disable(moderngl.CULL_FACE)
+        self._meadow.draw(planes, camera, quality)
+        self._trees.draw(planes, camera, quality)
+        ctx.enable(moderngl.CULL_FACE)
+        self._ground.draw(planes, camera, environment)
+        ctx.disable(moderngl.CULL_FACE)
+
+    def _draw_blended(
+        self, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int], view: NDArray,
+        planes: NDArray, camera: NDArray,
+    ) -> None:  # fmt: skip
+        target.depth_mask = False
+        self._bind_maps()
+        if self._water.seen(planes, camera) < np.inf:
+            self._water.draw((1.0 / viewport[2], 1.0 / viewport[3], 0.0, 0.0))
+        self._halos.draw(view)
+        target.depth_mask = True
+        self.ctx.enable_only(moderngl.NOTHING)
+
+    def _update_shadows(self, sun: NDArray, camera: NDArray) -> None:
+        shadows = self._shadows
+        if shadows.needs(sun):
+            shadows.draw_still(sun, self._draw_still_shadows)
+        near = [s for s in self._actors.spheres
+                if np.linalg.norm(s[0] - camera) < MOVING_SHADOWS]  # fmt: skip
+        shadows.draw_moving(near, self._actors.draw_shadow)
+
+    def _draw_still_shadows(self, matrix: NDArray) -> None:
+        self._statics.draw_shadow(matrix)
+        self._trees.draw_shadow(matrix)
+
+    def release(self) -> None:
+        """Give everything back; a second call does nothing."""
+        if self._released:
+            return
+        self._released = True
+        for item in (self._halos, self._water, self._meadow, self._trees, self._actors,
+                     self._statics, self._ground, self._shadows, self._sky, self._detail,
+                     self._mirror, self._block):  # fmt: skip
+            item.release()

@@ -1,0 +1,104 @@
+"""The sky: painted into a map a few rows a frame, shown by blending the last two maps."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from demo_game.place import paint
+
+from .environment import Environment
+from .frame_block import FrameBlock
+from .programs import compile_program, set_matrix
+
+JUMP = 25.0  # m the camera moves in one map's time that calls for a fresh one at once
+CHANGE = 0.12  # likewise for colours and cover
+
+
+class Sky:
+    """Three maps in turn: shown before, shown after, being painted."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, size: int, rows: int) -> None:
+        self.ctx, self.size, self.rows = ctx, size, rows
+        table = paint.clouds()
+        self._clouds = ctx.texture((table.shape[1], table.shape[0]), 2, table.tobytes())
+        self._clouds.filter = (moderngl.LINEAR, moderngl.LINEAR)
+        self.maps = [ctx.texture((size, size), 4) for _ in range(3)]
+        for texture in self.maps:
+            texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+            texture.repeat_x = texture.repeat_y = False
+        self._targets = [ctx.framebuffer([texture]) for texture in self.maps]
+        self._bake = compile_program(ctx, "sky_bake.vert", "sky_bake.frag")
+        self._show = compile_program(ctx, "sky.vert", "sky.frag")
+        block.attach(self._bake, self._show)
+        self._quad = ctx.buffer(np.array([-1, -1, 3, -1, -1, 3], "f4"))
+        shape = [(self._quad, "2f4", "in_position")]
+        self._bake_array = ctx.vertex_array(self._bake, shape)
+        self._show_array = ctx.vertex_array(self._show, shape)
+        self._row = 0
+        self._painted: NDArray | None = None  # state of the map now shown
+        self._state: NDArray = np.zeros(0)
+
+    @property
+    def map(self) -> moderngl.Texture:
+        """The newest whole map, for reflections."""
+        return self.maps[1]
+
+    def paint(self, camera: NDArray, environment: Environment) -> None:
+        """Paint this frame's rows, or all of them where the world has jumped."""
+        self._state = _state(camera, environment)
+        self._bake["cloud_map"] = 0
+        self._clouds.use(0)
+        self.ctx.enable_only(moderngl.NOTHING)
+        if self._painted is None or _jumped(self._painted, self._state):
+            self._rows(1, 0, self.size)
+            self._rows(0, 0, self.size)
+            self._row = 0
+            self._painted = self._state
+            return
+        rows = min(self.rows, self.size - self._row)
+        self._rows(2, self._row, rows)
+        self._row += rows
+        if self._row >= self.size:
+            for items in (self.maps, self._targets):
+                items.append(items.pop(0))
+            self._row = 0
+            self._painted = self._state
+
+    def _rows(self, target: int, first: int, count: int) -> None:
+        framebuffer = self._targets[target]
+        framebuffer.use()
+        framebuffer.scissor = (0, first, self.size, count)
+        self._bake_array.render()
+        framebuffer.scissor = None
+
+    def draw(self, view: NDArray, projection: NDArray) -> None:
+        """Fill what nothing has covered; depth test on, at the far end."""
+        turn = view.copy()
+        turn[:3, 3] = 0.0
+        show = self._show
+        set_matrix(show, "to_world", np.linalg.inv(projection @ turn))
+        show["share"] = self._row / self.size
+        self.maps[0].use(0)
+        self.maps[1].use(1)
+        show["sky_before"], show["sky_after"] = 0, 1
+        self._show_array.render()
+
+    def release(self) -> None:
+        """Give everything back."""
+        for item in (self._show_array, self._bake_array, self._quad, self._show, self._bake,
+                     *self._targets, *self.maps, self._clouds):  # fmt: skip
+            item.release()
+
+
+def _state(camera: NDArray, env: Environment) -> NDArray:
+    colors = (*env.sun_color, *env.zenith_color, *env.horizon_color, *env.fog_color)
+    rain = [value for a in list(env.rain_areas)[:4] for value in (*a[0], 6.0 * min(a[3], 10.0))]
+    rain += [0.0] * (12 - len(rain))
+    scaled = np.array([*colors, env.overcast, *env.sun_direction]) / CHANGE
+    return np.concatenate([scaled, np.array([*camera, *rain]) / JUMP])
+
+
+def _jumped(before: NDArray, now: NDArray) -> bool:
+    return bool(np.abs(before - now).max() > 1.0)

@@ -1,0 +1,128 @@
+"""What stands still and what moves in parts: buildings, posts, rocks; figure and sails."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from demo_game.place import Place
+from demo_game.place.mesh import merge
+
+from . import geometry
+from .frame_block import FrameBlock
+from .geometry import VERTEX_FORMAT, VERTEX_NAMES
+from .programs import compile_program, set_matrix
+
+SMALL = {"room": 70.0, "mailbox": 160.0, "yard": 110.0, "lamps": 260.0, "fences": 190.0,
+         "rocks": 150.0}  # fmt: skip  # m, beyond which they are not drawn
+PARTS = 12
+ACTOR_REACH = 170.0  # m
+
+
+class Statics:
+    """All static meshes in one buffer, in pieces."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
+        self.program = compile_program(ctx, "object.vert", "object.frag")
+        self.shadow = compile_program(ctx, "shadow.vert", "shadow.frag")
+        block.attach(self.program)
+        vertices, indices, ranges, lows, highs, reach = [], [], [], [], [], []
+        vertex_count = index_count = 0
+        for name, mesh in place.meshes.items():
+            if mesh.dynamic:
+                continue
+            pieces = geometry.cut(mesh)
+            vertices.append(geometry.pack(mesh))
+            indices.append(pieces.indices + np.uint32(vertex_count))
+            ranges.append(pieces.ranges + (index_count, 0))
+            lows.append(pieces.low)
+            highs.append(pieces.high)
+            reach.append(np.full(len(pieces.low), SMALL.get(name, 1e9)))
+            vertex_count += len(mesh.vertices)
+            index_count += pieces.indices.size
+        self._vertices = ctx.buffer(np.concatenate(vertices).tobytes())
+        self._indices = ctx.buffer(np.concatenate(indices).astype("u4").tobytes())
+        self._ranges = np.concatenate(ranges)
+        self._low, self._high = np.concatenate(lows), np.concatenate(highs)
+        self._reach = np.concatenate(reach)
+        content = [(self._vertices, VERTEX_FORMAT, *VERTEX_NAMES)]
+        self._array = ctx.vertex_array(self.program, content, self._indices)
+        content = [(self._vertices, "3f4 16x1", "in_position")]
+        self._shadow_array = ctx.vertex_array(self.shadow, content, self._indices)
+
+    def draw(self, planes: NDArray, camera: NDArray) -> None:
+        """Draw what is seen, near to far."""
+        away = geometry.box_distance(camera, self._low, self._high)
+        seen = geometry.boxes_seen(planes, self._low, self._high) & (away < self._reach)
+        chosen = np.flatnonzero(seen)
+        for first, count in self._ranges[chosen[np.argsort(away[chosen])]].tolist():
+            self._array.render(vertices=count, first=first)
+
+    def draw_shadow(self, matrix: NDArray) -> None:
+        """Draw all of it from the sun."""
+        set_matrix(self.shadow, "light_matrix", matrix)
+        self._shadow_array.render()
+
+    def release(self) -> None:
+        """Give everything back."""
+        for item in (self._array, self._shadow_array, self._vertices, self._indices,
+                     self.program, self.shadow):  # fmt: skip
+            item.release()
+
+
+class Actors:
+    """The figure and the windmill's sails: one mesh, a matrix a part."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
+        self._place = place
+        self.program = compile_program(ctx, "object.vert", "object.frag", "PARTS")
+        self.shadow = compile_program(ctx, "shadow.vert", "shadow.frag", "PARTS")
+        block.attach(self.program)
+        mesh = merge([place.meshes["figure"], place.meshes["sails"]])
+        self._vertices = ctx.buffer(geometry.pack(mesh).tobytes())
+        self._indices = ctx.buffer(mesh.indices.tobytes())
+        self._split = place.meshes["figure"].indices.size
+        self._total = mesh.indices.size
+        content = [(self._vertices, VERTEX_FORMAT, *VERTEX_NAMES)]
+        self._array = ctx.vertex_array(self.program, content, self._indices)
+        content = [(self._vertices, "3f4 8x1 4f1 4x1", "in_position", "in_extra")]
+        self._shadow_array = ctx.vertex_array(self.shadow, content, self._indices)
+        self._sails = place.meshes["sails"]
+        self._lamps = np.array([lamp.position for lamp in place.lamps])
+        self._strength = np.array([max(lamp.color) for lamp in place.lamps])
+        self.spheres: list[tuple[NDArray, float]] = []
+        self._radius = float(np.linalg.norm(self._sails.vertices, axis=1).max())
+
+    def pose(self, time: float) -> None:
+        """Take the pose of a time, s."""
+        poses = [*self._place.figure_pose(time).values(), *self._place.mover_pose(time).values()]
+        padded = [*poses, *[np.eye(4)] * (PARTS - len(poses))]
+        set_matrix(self.program, "parts", *padded)
+        set_matrix(self.shadow, "parts", *padded)
+        body, sails = poses[0][:3, 3], poses[-1][:3, 3]
+        self.spheres = [(body, 1.15), (sails, self._radius)]
+        gap = np.sum((self._lamps - body) ** 2, axis=1)
+        light = float(np.sum(self._strength * 1.2 / (gap + 1.2)))
+        self.program["part_light"] = (light, 0.0, 0.0, 0.0)
+
+    def draw(self, planes: NDArray, camera: NDArray) -> None:
+        """Draw those that are seen."""
+        first = 0
+        for (center, radius), end in zip(self.spheres, (self._split, self._total), strict=True):
+            seen = (planes[:, :3] @ center + planes[:, 3] > -radius).all()
+            near = np.linalg.norm(center - camera) < ACTOR_REACH + 20.0 * radius
+            if seen and near:
+                self._array.render(vertices=end - first, first=first)
+            first = end
+
+    def draw_shadow(self, matrix: NDArray) -> None:
+        """Draw all of it from the sun."""
+        set_matrix(self.shadow, "light_matrix", matrix)
+        self._shadow_array.render()
+
+    def release(self) -> None:
+        """Give everything back."""
+        for item in (self._array, self._shadow_array, self._vertices, self._indices,
+                     self.program, self.shadow):  # fmt: skip
+            item.release()

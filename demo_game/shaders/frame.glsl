@@ -1,0 +1,16 @@
+// One frame's camera, light and weather; filled by demo_game.render.frame_block.
+layout(std140) uniform Frame {
+    mat4 view_projection;
+    mat4 shadow_matrix;   // world to the shadow map's (u, v, depth)
+    vec4 camera;          // xyz m, w time s
+    vec4 sun_direction;   // xyz towards the sun, w lamps' strength
+    vec4 sun_color;       // rgb, w wetness 0..1
+    vec4 zenith_color;    // rgb, w overcast 0..1
+    vec4 horizon_color;   // rgb, w fog density 1/m
+    vec4 ground_color;    // rgb, w depth bias of leaves
+    vec4 fog_color;       // rgb, w number of rain areas
+    vec4 wind;            // x, z m/s, z sway amplitude m, w sway phase rad
+    vec4 area_shape[4];   // center x, z, 1/a, 1/b
+    vec4 area_turn[4];    // cos, sin of the heading, darkness, wetness
+    vec4 area_cloud[4];   // base m, half thickness m, spread, strength
+};

@@ -1,0 +1,32 @@
+// Blades: three vertices each, shrinking away with distance.
+#include "frame.glsl"
+#include "light.glsl"
+
+in vec3 in_position;
+in vec4 in_color;   // square root of the albedo, w: 1 at the tip
+in vec4 in_root;    // foot of the tuft, w: lamp light
+
+uniform vec2 reach; // m, where blades begin to shrink, where they are gone
+
+out vec3 v_shade;
+out vec3 v_sun;
+out vec3 v_shadow;
+out vec4 v_haze;
+
+void main() {
+    vec3 root = in_root.xyz;
+    float size = 1.0 - smoothstep(reach.x, reach.y, distance(root.xz, camera.xz));
+    vec3 p = mix(root, in_position, size);
+    float phase = wind.w * 1.7 + dot(root.xz, vec2(0.9, 0.7));
+    p.xz += wind.xy * (in_color.w * wind.z * 0.30 * (0.5 + 0.5 * sin(phase)) * (p.y - root.y));
+    p.xz += vec2(sin(phase * 1.9), cos(phase * 1.6)) * (0.018 * in_color.w);
+    vec2 cover = rain_cover(root.xz);
+    vec3 albedo = in_color.rgb * in_color.rgb * (1.0 - 0.28 * cover.y);
+    vec3 ambient = sky_light(vec3(0.0, 1.0, 0.0), cover.x) * (0.62 + 0.38 * in_color.w);
+    ambient += LAMP_COLOR * (LAMP_STRENGTH * in_root.w * 4.0 * sun_direction.w);
+    v_shade = albedo * ambient;
+    v_sun = albedo * sun_light(0.25 + 0.75 * sun_direction.y, cover.x);
+    v_shadow = (shadow_matrix * vec4(root + vec3(0.0, 0.25, 0.0), 1.0)).xyz;
+    v_haze = haze(p);
+    gl_Position = view_projection * vec4(p, 1.0);
+}

@@ -1,0 +1,78 @@
+// Anything but the ground: static meshes, instanced trees (TREES), moving parts (PARTS).
+#include "frame.glsl"
+#include "light.glsl"
+
+in vec3 in_position;
+in vec4 in_normal;    // not unit, w: 127 times the sway
+in vec4 in_color;     // square root of the albedo, w: sky seen
+in vec4 in_extra;     // material / 255, part / 255, lamp light / 4, unused
+in vec2 in_uv;
+
+#ifdef TREES
+in vec4 in_foot;      // xyz, w height m
+in vec4 in_turn;      // cos, sin, lamp light, tint
+#endif
+#ifdef PARTS
+uniform mat4 parts[12];
+uniform vec4 part_light;  // x lamp light at the figure
+#endif
+
+out vec3 v_shade;
+out vec3 v_sun;
+out vec3 v_shadow;
+out vec4 v_haze;
+out vec2 v_uv;
+flat out vec4 v_mask;
+
+void main() {
+    vec3 n = in_normal.xyz;
+    vec3 p = in_position;
+    float lamp = in_extra.z * 4.0;
+    vec3 albedo = in_color.rgb * in_color.rgb;
+#ifdef TREES
+    mat2 turn = mat2(in_turn.x, -in_turn.y, in_turn.y, in_turn.x);
+    p *= in_foot.w;
+    p.xz = turn * p.xz;
+    n.xz = turn * n.xz;
+    p += in_foot.xyz;
+    float phase = wind.w + dot(in_foot.xz, vec2(0.37, 0.23)) + in_position.y * 2.0;
+    float sway = in_normal.w / 127.0;
+    float bend = sway * sway * wind.z;
+    p.xz += wind.xy * (bend * (0.55 + 0.45 * sin(phase)));
+    p.xz += vec2(sin(phase * 2.7 + in_position.x * 9.0), cos(phase * 2.3)) * (0.02 * bend);
+    albedo *= in_turn.w;
+    lamp = in_turn.z;
+#endif
+#ifdef PARTS
+    mat4 part = parts[int(in_extra.y * 255.0 + 0.5)];
+    p = (part * vec4(p, 1.0)).xyz;
+    n = mat3(part) * n;
+    lamp = part_light.x;
+#endif
+    n = normalize(n);
+    float sky = in_color.a;
+    vec2 cover = rain_cover(p.xz);
+    float material = in_extra.x * 255.0;
+    float leaf = step(1.5, material) * step(material, 2.5);
+    float facing = dot(n, sun_direction.xyz);
+    facing = mix(max(facing, 0.0), max((facing + 0.45) / 1.45, 0.0), leaf);
+    float wet = cover.y * smoothstep(0.30, 0.75, sky);
+    albedo *= 1.0 - 0.42 * wet * (0.55 + 0.45 * n.y) * (1.0 - 0.5 * leaf);
+    vec3 ambient = sky_light(n, cover.x) * sky;
+    ambient += LAMP_COLOR * (LAMP_STRENGTH * lamp * sun_direction.w);
+    v_shade = albedo * ambient;
+    v_sun = albedo * sun_light(facing, cover.x) * mix(1.0, 0.35 + 0.65 * sky, leaf);
+    vec3 view = normalize(camera.xyz - p);
+    float rim = 1.0 - max(dot(n, view), 0.0);
+    float gloss = wet * max(n.y, 0.0) * (0.03 + 0.5 * rim * rim * rim * rim) * (1.0 - 0.6 * leaf);
+    v_shade += mix(horizon_color.rgb, zenith_color.rgb, 0.3) * gloss * (1.0 - 0.35 * cover.x);
+    if (material > 3.5) {
+        v_shade = albedo * (0.5 + 3.6 * sun_direction.w);
+        v_sun = vec3(0.0);
+    }
+    v_mask = vec4(step(material, 0.5), step(0.5, material) * step(material, 1.5), leaf, 0.0);
+    v_uv = in_uv;
+    v_shadow = (shadow_matrix * vec4(p + n * (0.05 + 0.25 * leaf), 1.0)).xyz;
+    v_haze = haze(p);
+    gl_Position = view_projection * vec4(p, 1.0);
+}
