@@ -146,7 +146,18 @@ def live_objects(highest: int = 4096) -> set[str]:
     for kind in KINDS:
         asks = getattr(gl, "glIs" + kind)
         alive |= {f"{kind} {name}" for name in range(1, highest) if asks(name)}
-    return alive
+    return {name for name in alive if not _deleted(name)}
+
+
+def _deleted(name: str) -> bool:
+    """Whether it was given back: Mesa keeps the last programs a while after their deletion."""
+    kind, number = name.split()
+    status = ctypes.c_int()
+    if kind == "Program":
+        gl.glGetProgramiv(int(number), gl.GL_DELETE_STATUS, byref(status))
+    elif kind == "Shader":
+        gl.glGetShaderiv(int(number), gl.GL_DELETE_STATUS, byref(status))
+    return bool(status.value)
 
 
 def error() -> int:
