@@ -30,7 +30,7 @@ def test_levels_grow():
 
 @pytest.mark.parametrize("name", ["best", "LOW", "", None, 3, b"low", ["low"], {}])
 def test_unknown_levels_are_refused_with_the_names_there_are(name):
-    with pytest.raises(InvalidValueError, match="quality.*low, medium, high, ultra, auto"):
+    with pytest.raises(InvalidValueError, match=r"quality.*low, medium, high, ultra, auto"):
         settings_for(name)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import math
+import sys
 from types import SimpleNamespace
 from typing import Any
 
@@ -106,6 +107,39 @@ def test_a_window_gives_context_and_matrices(made):
     weather.close()
     weather.close()
     assert made[0].released == 1
+
+
+def test_the_window_that_was_current_is_current_again(made, monkeypatch):
+    class Current:
+        """What pyglet keeps of the context that is current."""
+
+        def __init__(self) -> None:
+            self.current_context: object = other
+
+    class OtherContext:
+        def set_current(self) -> None:
+            gl.current_context = self
+
+    other = OtherContext()
+    gl = Current()
+    monkeypatch.setitem(sys.modules, "pyglet.gl", gl)
+    window = FakeWindow()
+    monkeypatch.setattr(window, "switch_to", lambda: setattr(gl, "current_context", window.context))
+
+    def draw(view: Any, settings: Any) -> None:
+        assert gl.current_context is window.context
+        raise RuntimeError("a fault in the middle of drawing")
+
+    weather = Weather(window)
+    assert gl.current_context is other
+    weather.draw()
+    assert gl.current_context is other
+    monkeypatch.setattr(made[0], "draw", draw)
+    with pytest.raises(RuntimeError, match="a fault"):
+        weather.draw()
+    assert gl.current_context is other
+    weather.close()
+    assert gl.current_context is other
 
 
 def test_a_closed_or_empty_window_is_a_harmless_frame(made):

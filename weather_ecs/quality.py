@@ -44,6 +44,40 @@ def settings_for(name: object) -> QualitySettings:
     return LEVELS[name]
 
 
+class FrameCost:
+    """Adds up the draws of a frame; a frame lasts from the first draw after a process to the next.
+
+    Times in ms, the clock's readings in s.
+    """
+
+    def __init__(self) -> None:
+        self._began: float | None = None
+        self._processed = True
+        self._gpu = self._cpu = 0.0
+        self._counts = False
+
+    def processed(self) -> None:
+        """The game has moved on: the next draw begins a frame."""
+        self._processed = True
+
+    def begin(self, now: float) -> tuple[float, float, float] | None:
+        """At every draw: frame, GPU and CPU time of a frame that is now over, if rain was in it."""
+        if not self._processed:
+            return None
+        figures = None
+        if self._began is not None and self._counts:
+            figures = (now - self._began) * 1000.0, self._gpu, self._cpu
+        self._began, self._processed, self._counts = now, False, False
+        self._gpu = self._cpu = 0.0
+        return figures
+
+    def add(self, gpu_ms: float, cpu_ms: float, drops: int) -> None:
+        """What one draw took, and how many drops it has drawn."""
+        self._gpu += gpu_ms
+        self._cpu += cpu_ms
+        self._counts |= drops > 0
+
+
 class AutoQuality:
     """Steers the share of the drops so that the game keeps its frame time.
 

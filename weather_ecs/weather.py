@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
-from weakref import WeakKeyDictionary, finalize
 
 import esper
 
@@ -14,8 +15,9 @@ from weather_ecs.components import Observer
 from weather_ecs.components._base import FAR, integer, vector
 from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, WeatherError
 from weather_ecs.frame import FrameData
-from weather_ecs.physics.camera import camera_from
-from weather_ecs.quality import AutoQuality, QualitySettings, settings_for
+from weather_ecs.observer_keys import ObserverKeys
+from weather_ecs.physics.camera import Camera, camera_from
+from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, settings_for
 from weather_ecs.sampling import Sample, SampleField
 from weather_ecs.stats import Stats
 from weather_ecs.systems import ExtractSystem, WeatherProcessor, WeatherState, scheduled
@@ -73,14 +75,10 @@ class Weather:
         self._backend: str = "none" if self._renderer is None else self._renderer.backend
         self._stats = Stats(quality=self._settings.name, backend=self._backend)
         self._observer: tuple[float, float, float] | None = None  # m, of the last draw
-        self._keys: WeakKeyDictionary[Observer, int] = WeakKeyDictionary()
-        self._next_key = 1  # 0 is the implicit observer
-        self._retired: list[int] = []  # keys of observers that are gone
+        self._keys = ObserverKeys()
         self._field: SampleField | None = None
         self._field_frame: FrameData | None = None
-        self._frame_start: float | None = None  # s, of the first draw since esper.process
-        self._frame_is_new = True
-        self._gpu_ms = self._cpu_ms = 0.0  # of all draws of this frame
+        self._cost = FrameCost()
         step, frame = scheduled("step"), scheduled("frame")
         self._extract = next(system for system in frame if isinstance(system, ExtractSystem))
         self._processor = WeatherProcessor(self._state, step, frame, self._processed)
@@ -181,23 +179,26 @@ class Weather:
             raise ContextError("this weather was made with neither window nor context to draw to")
         if self._window is not None and not _can_be_drawn_to(self._window):
             return
-        started = perf_counter()
         if self._window is not None:
-            _make_current(self._window)
             view = self._window.view if view is None else view
             projection = self._window.projection if projection is None else projection
-        camera = camera_from(view, projection)
+        with _current(self._window):
+            self._draw(camera_from(view, projection), observer, perf_counter())
+
+    def _draw(self, camera: Camera, observer: Observer | None, started: float) -> None:
         frame = self._frame()
-        self._begin_frame(started)
+        finished = self._cost.begin(started)
+        if finished is not None:
+            self._auto.feed(*finished)
         settings = self._auto.settings() if self.quality == "auto" else self._settings
         renderer = self._ready_renderer()
-        renderer.draw(self._view.view(frame, camera, self._key(observer), settings), settings)
+        renderer.draw(self._view.view(frame, camera, self._keys.key(observer), settings), settings)
         self._observer = camera.position
         self._stats.count(renderer.stats)
-        self._gpu_ms += float(renderer.stats.get("gpu_ms", 0.0))
         self._refresh_stats()
         self._stats.ms = (perf_counter() - started) * 1000.0
-        self._cpu_ms += self._stats.ms
+        gpu_ms = float(renderer.stats.get("gpu_ms", 0.0))
+        self._cost.add(gpu_ms, self._stats.ms, self._stats.drops_drawn)
 
     def _make_renderer(self) -> Renderer:
         from weather_ecs.gpu.context import obtain
@@ -208,9 +209,9 @@ class Weather:
                 raise InvalidValueError("window", self._window, "a pyglet window or None")
             if self._window.context is None:
                 raise ContextError("the window is closed")
-            _make_current(self._window)
-        context = obtain(self._context)
-        return Renderer(context, backend=self._asked_backend, seed=self._state.seed)
+        with _current(self._window):
+            context = obtain(self._context)
+            return Renderer(context, backend=self._asked_backend, seed=self._state.seed)
 
     def _ready_renderer(self) -> Renderer:
         """The renderer; made anew, with the view, where a snapshot has brought another seed."""
@@ -221,30 +222,9 @@ class Weather:
             self._renderer = self._make_renderer()
             self._view = RainView(self._state.seed)
             self._view_seed = self._state.seed
-        while self._retired:
-            self._view.forget(self._retired.pop())
+        for key in self._keys.retired():
+            self._view.forget(key)
         return self._renderer
-
-    def _key(self, observer: Observer | None) -> int:
-        if observer is None:
-            return 0
-        key = self._keys.get(observer)
-        if key is None:
-            key = self._keys[observer] = self._next_key
-            self._next_key += 1
-            finalize(observer, self._retired.append, key).atexit = False
-        return key
-
-    def _begin_frame(self, now: float) -> None:
-        """At the first draw after `esper.process`: teach the automatic quality the last frame."""
-        if not self._frame_is_new:
-            return
-        self._frame_is_new = False
-        if self._frame_start is not None and self._stats.drops_drawn:
-            frame_ms = (now - self._frame_start) * 1000.0
-            self._auto.feed(frame_ms, self._gpu_ms, self._cpu_ms)
-        self._frame_start = now
-        self._gpu_ms = self._cpu_ms = 0.0
 
     # The end
 
@@ -260,11 +240,10 @@ class Weather:
         renderer, self._renderer = self._renderer, None
         if renderer is None:
             return
-        if self._window is not None:
-            if self._window.context is None:
-                return  # its objects went with the window
-            _make_current(self._window)
-        renderer.release()
+        if self._window is not None and self._window.context is None:
+            return  # its objects went with the window
+        with _current(self._window):
+            renderer.release()
 
     def __enter__(self) -> Weather:
         return self
@@ -286,7 +265,7 @@ class Weather:
     def _processed(self) -> None:
         self._stats.frame += 1
         self._stats.time = self._state.clock.time
-        self._frame_is_new = True
+        self._cost.processed()
 
     def _frame(self) -> FrameData:
         if esper.current_world == self._world:
@@ -321,7 +300,17 @@ def _can_be_drawn_to(window: Any) -> bool:
     return width > 0 and height > 0
 
 
-def _make_current(window: Any) -> None:
-    gl = sys.modules.get("pyglet.gl")
-    if gl is None or gl.current_context is not window.context:
-        window.switch_to()
+@contextmanager
+def _current(window: Any) -> Iterator[None]:
+    """Make a window's context current, and afterwards the one that was before."""
+    gl = sys.modules.get("pyglet.gl")  # where there is a window, pyglet has loaded it
+    before = None if gl is None else gl.current_context
+    if window is None or before is window.context:
+        yield
+        return
+    window.switch_to()
+    try:
+        yield
+    finally:
+        if before is not None:
+            before.set_current()

@@ -1,0 +1,39 @@
+"""`ObserverKeys`: what the GPU side knows observers by."""
+
+from __future__ import annotations
+
+from weakref import WeakKeyDictionary, finalize
+
+from weather_ecs.components import Observer
+
+IMPLICIT = 0  # the observer of a game that names none
+
+
+class ObserverKeys:
+    """A number for every observer that was drawn for, as long as it lives; never used again."""
+
+    def __init__(self) -> None:
+        self._keys: WeakKeyDictionary[Observer, int] = WeakKeyDictionary()
+        self._next = IMPLICIT + 1
+        self._retired: list[int] = []
+
+    def key(self, observer: Observer | None) -> int:
+        """The observer's number, a new one where it has none."""
+        if observer is None:
+            return IMPLICIT
+        key = self._keys.get(observer)
+        if key is None:
+            key = self._keys[observer] = self._next
+            self._next += 1
+            finalize(observer, self._retired.append, key).atexit = False
+        return key
+
+    def retired(self) -> list[int]:
+        """Numbers whose observers have gone since the last call."""
+        gone = []
+        while self._retired:
+            gone.append(self._retired.pop())
+        return gone
+
+    def __len__(self) -> int:
+        return len(self._keys)
