@@ -11,6 +11,7 @@ from typing import Any, Protocol, TypeVar
 
 import moderngl
 import pytest
+
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.gl import GL
 

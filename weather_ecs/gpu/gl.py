@@ -94,7 +94,10 @@ class GL:
     # programs, vertex arrays, buffers
     glUseProgram: Callable[[U], None]
     glIsProgram: Callable[[U], B]
+    glDeleteProgram: Callable[[U], None]
+    glGetAttachedShaders: Callable[[U, I, P, P], None]
     glIsShader: Callable[[U], B]
+    glDeleteShader: Callable[[U], None]
     glGetProgramiv: Callable[[U, U, P], None]
     glGetShaderiv: Callable[[U, U, P], None]
     glGetUniformBlockIndex: Callable[[U, S], U]

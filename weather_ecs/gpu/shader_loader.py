@@ -7,6 +7,7 @@ as deep as needed; each text counts once per stage.
 
 from __future__ import annotations
 
+import ctypes
 from dataclasses import dataclass
 from importlib import resources
 from importlib.resources.abc import Traversable
@@ -16,6 +17,7 @@ import moderngl
 
 from weather_ecs.errors import ContextError, InvalidValueError, ShaderError
 from weather_ecs.gpu.blocks import assign_bindings
+from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.shader_source import Define, Source, resolve
 
 
@@ -61,8 +63,11 @@ class ProgramKey:
 class ShaderLoader:
     """Compiles and keeps the programs of one context."""
 
-    def __init__(self, ctx: moderngl.Context, root: Traversable | None = None) -> None:
+    def __init__(
+        self, ctx: moderngl.Context, root: Traversable | None = None, gl: GL | None = None
+    ) -> None:
         self._ctx = ctx
+        self._gl = gl if gl is not None else GL()
         self._root = root or resources.files("weather_ecs").joinpath("shaders")
         self._programs: dict[ProgramKey, Any] = {}
 
@@ -86,12 +91,16 @@ class ShaderLoader:
             for stage, name in key.stages.items()
         }
         texts: dict[str, Any] = {f"{stage}_shader": s.text for stage, s in sources.items()}
+        before = programs(self._gl)
         try:
             if key.compute:
                 built: Any = self._ctx.compute_shader(sources["compute"].text)
             else:
                 built = self._ctx.program(**texts, varyings=key.varyings)
         except moderngl.Error as error:
+            # moderngl leaves a program that does not compile alive, without a way to release it.
+            for left in programs(self._gl) - before:
+                delete(self._gl, left)
             raise ShaderError(explain(key, sources, str(error))) from None
         assign_bindings(self._ctx, built)
         return built
@@ -101,6 +110,20 @@ class ShaderLoader:
         for program in reversed(self._programs.values()):
             program.release()
         self._programs.clear()
+
+
+def programs(gl: GL) -> set[int]:
+    """Names of the programs there are; drivers hand out the lowest free name."""
+    return {name for name in range(1, 2048) if gl.glIsProgram(name)}
+
+
+def delete(gl: GL, program: int) -> None:
+    """A program and the shaders attached to it."""
+    shaders, count = (ctypes.c_uint * 8)(), ctypes.c_int()
+    gl.glGetAttachedShaders(program, 8, ctypes.addressof(count), ctypes.addressof(shaders))
+    gl.glDeleteProgram(program)
+    for shader in shaders[: count.value]:
+        gl.glDeleteShader(shader)
 
 
 def explain(key: ProgramKey, sources: dict[str, Source], log: str) -> str:
