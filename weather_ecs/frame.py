@@ -54,14 +54,15 @@ class SkyLight:
 class DropLook:
     """Looks of the drops of a container; see `components.RainContainer`."""
 
-    reach: float = 40.0  # m, semi-axis of the near container
-    height: float = 24.0  # m, of the near container
+    reach: float = 30.0  # m, semi-axis of the near container
+    height: float = 20.0  # m, of the near container
     margin: float = 0.75  # m, observer's movement that leaves the container where it is
-    size_maximum: float = 6.0  # Eq. 3's factor at the container's rim
-    exposure: float = 1.0 / 30.0  # s, length of the path a streak shows
+    size_maximum: float = 8.0  # Eq. 3's factor at the container's rim
+    exposure: float = 1.0 / 24.0  # s, length of the path a streak shows
     width: float = 5.0  # factor on the drop's diameter, look only
-    opacity: float = 0.7  # greatest opacity of one streak
+    opacity: float = 0.6  # greatest opacity of one streak
     veil: float = 2.5  # factor on the veil's extinction, look only
+    fastest: float = 8.0  # m/s, of the observer's own speed that slants the streaks at most
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -37,15 +37,15 @@ class Preset:
 # Rain: the American Meteorological Society's glossary calls rain light up to 2.5 mm/h, moderate
 # to 7.6 mm/h and heavy above, drizzle what seldom exceeds 1 mm/h, and a cloudburst 100 mm/h and
 # more. Light, moderate and heavy are also the three rains of Liu and Tong (2015).
-# Wind: Beaufort 2 to 3 in calm weather, 4 in steady rain, 5 in heavy rain, 6 to 7 under a storm.
+# Wind: Beaufort 2 in fine weather, 3 in steady and heavy rain, 5 under a cloudburst's storm.
 # Overcast: oktas over 8; steady rain falls from a closed sky.
 _TABLE = (
     Preset("clear", 0.0, 2.0, 0.1, "No rain, a light breeze"),
     Preset("drizzle", 0.5, 2.5, 0.9, "Fine drops that barely wet the ground"),
-    Preset("light", 2.0, 4.0, 0.85, "Light rain: a hood is enough"),
-    Preset("moderate", 5.0, 6.0, 1.0, "Moderate rain: puddles form"),
-    Preset("heavy", 25.0, 9.5, 1.0, "Heavy rain: gutters overflow, hills fade out"),
-    Preset("cloudburst", 100.0, 14.0, 1.0, "A cloudburst: one sees a few hundred metres"),
+    Preset("light", 2.0, 3.0, 0.85, "Light rain: a hood is enough"),
+    Preset("moderate", 5.0, 3.5, 1.0, "Moderate rain: puddles form"),
+    Preset("heavy", 25.0, 4.0, 1.0, "Heavy rain: gutters overflow, hills fade out"),
+    Preset("cloudburst", 100.0, 9.0, 1.0, "A cloudburst: one sees a few hundred metres"),
 )
 
 PRESETS: dict[str, Preset] = {preset.name: preset for preset in _TABLE}

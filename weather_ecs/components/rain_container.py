@@ -15,14 +15,15 @@ class RainContainer(Component):
     The fields and their defaults are those of `weather_ecs.frame.DropLook`.
     """
 
-    reach: float = 40.0  # m, 2 to 500, semi-axis of the container around the observer
-    height: float = 24.0  # m, 2 to 500, of that container
+    reach: float = 30.0  # m, 2 to 500, semi-axis of the container around the observer
+    height: float = 20.0  # m, 2 to 500, of that container
     margin: float = 0.75  # m, 0 to 100, movement of the observer that leaves it where it is
-    size_maximum: float = 6.0  # 1 to 50, growth of a drop at the container's rim (Eq. 3)
-    exposure: float = 1.0 / 30.0  # s, 1e-4 to 1, of fall that a streak shows
+    size_maximum: float = 8.0  # 1 to 50, growth of a drop at the container's rim (Eq. 3)
+    exposure: float = 1.0 / 24.0  # s, 1e-4 to 1, of fall that a streak shows
     width: float = 5.0  # 0.05 to 20, factor on the drop's diameter
-    opacity: float = 0.7  # 0 to 1, greatest opacity of one streak
+    opacity: float = 0.6  # 0 to 1, greatest opacity of one streak
     veil: float = 2.5  # 0 to 10, factor on the extinction of the rain beyond the container
+    fastest: float = 8.0  # m/s, 0 to 1000, of the observer's own speed that slants the streaks
 
     checks: ClassVar[dict[str, Check]] = {
         "reach": number(2.0, 500.0),
@@ -33,4 +34,5 @@ class RainContainer(Component):
         "width": number(0.05, 20.0),
         "opacity": number(0.0, 1.0),
         "veil": number(0.0, 10.0),
+        "fastest": number(0.0, 1000.0),
     }

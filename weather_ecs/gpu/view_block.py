@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -36,7 +38,9 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     pixels = 0.5 * height * float(p[1, 1])
     look, sky = view.frame.look, view.frame.sky
     data["camera_position"] = (*view.position, pixels)
-    data["camera_velocity"] = (*view.velocity, look.exposure)
+    speed = math.hypot(*view.velocity)
+    slow = min(look.fastest / speed, 1.0) if speed > 0.0 else 1.0
+    data["camera_velocity"] = (*(v * slow for v in view.velocity), look.exposure)
     forward = -view.view[2, :3]
     data["camera_forward"] = (*forward.tolist(), 0.0)
     data["view_size"] = (width, height, 0.0, 0.0)
