@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from weather_ecs.clock import LONGEST, STEP, Clock
@@ -23,6 +23,7 @@ def test_sixty_frames_a_second_are_twenty_steps():
     assert Clock().advance(0.0) == 0
 
 
+@settings(deadline=None)
 @given(frames)
 def test_no_time_is_lost_or_made(times):
     clock = Clock()
@@ -33,6 +34,7 @@ def test_no_time_is_lost_or_made(times):
     assert clock.time == clock.steps * STEP + clock.remainder
 
 
+@settings(deadline=None)
 @given(frames)
 def test_time_never_runs_back(times):
     clock, before = Clock(), 0.0
@@ -42,6 +44,7 @@ def test_time_never_runs_back(times):
         before = clock.time
 
 
+@settings(deadline=None)
 @given(st.integers(1, 400))
 def test_however_a_second_is_cut_it_has_twenty_steps(parts):
     clock = Clock()
@@ -125,6 +128,7 @@ def test_bad_pauses(paused):
         Clock().paused = paused
 
 
+@settings(deadline=None)
 @given(frames, frames, st.floats(0, 5), st.booleans())
 def test_a_restored_clock_goes_on_alike(before, after, speed, paused):
     clock = Clock()

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import weather_ecs.components as components
@@ -190,6 +190,7 @@ def test_a_revision_counts_assignments_of_its_own_class():
 vectors = st.tuples(*[st.floats(-1e308, 1e308)] * 3).filter(any)
 
 
+@settings(deadline=None)
 @given(vectors)
 def test_directions_have_length_one_and_a_second_pass_changes_nothing(vector):
     once = Sun(direction=vector).direction
@@ -200,6 +201,7 @@ def test_directions_have_length_one_and_a_second_pass_changes_nothing(vector):
     assert once == pytest.approx(scaled / np.linalg.norm(scaled), abs=1e-12)
 
 
+@settings(deadline=None)
 @given(st.floats(), st.floats())
 def test_radii_are_taken_exactly_when_they_are_an_ellipse(a, b):
     good = math.isfinite(a) and math.isfinite(b) and 1e6 >= a >= b >= 1e-3

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from weather_ecs.components import Occluder
@@ -150,6 +150,7 @@ def test_bad_transforms(transform):
         Occluder(CORNERS, TRIANGLES, transform)
 
 
+@settings(deadline=None)
 @given(st.floats(1e-3, 1e3), st.floats(-4, 4), st.floats(-1e6, 1e6))
 def test_turned_scaled_and_moved_is_fine_at_any_scale(scale, angle, shift):
     c, s = math.cos(angle) * scale, math.sin(angle) * scale

@@ -161,7 +161,7 @@ def test_frames_that_say_nothing_change_nothing(bad):
     assert one.budget != AutoQuality().budget
 
 
-@settings(max_examples=40)
+@settings(deadline=None, max_examples=40)
 @given(st.lists(st.tuples(st.floats(), st.floats(), st.floats()), max_size=150))
 def test_any_figures_keep_the_budget_in_its_range(trace):
     auto = AutoQuality()

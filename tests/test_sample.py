@@ -43,7 +43,7 @@ areas = st.tuples(
 points = st.tuples(st.floats(-300, 300), st.floats(-60, 60), st.floats(-300, 300))
 
 
-@settings(max_examples=200)
+@settings(deadline=None, max_examples=200)
 @given(st.lists(areas, max_size=5), st.lists(points, min_size=1, max_size=8))
 def test_one_point_at_a_time_equals_the_vectorised_physics(listed, where):
     rows = [(key, *area) for key, area in enumerate(listed)]

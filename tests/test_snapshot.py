@@ -220,7 +220,7 @@ def test_entities_made_after_a_restore_get_the_same_numbers():
 numbers = st.floats(-1e7, 1e7)
 
 
-@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+@settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 @given(
     st.lists(
         st.builds(
@@ -395,7 +395,7 @@ def test_infinity_and_nan_are_never_written_and_never_read():
         refused(sealed(bad))
 
 
-@settings(max_examples=150)
+@settings(deadline=None, max_examples=150)
 @given(st.data())
 def test_any_flipped_byte_is_noticed(data):
     position = data.draw(st.integers(0, len(GOOD) - 1))
@@ -406,7 +406,7 @@ def test_any_flipped_byte_is_noticed(data):
         snapshot.load(snapshot.decode(bytes(damaged)))
 
 
-@settings(max_examples=100)
+@settings(deadline=None, max_examples=100)
 @given(st.binary(max_size=200))
 def test_any_bytes_are_refused(data):
     for candidate in (data, b"WECS" + data, sealed(data)):
@@ -435,7 +435,7 @@ def paths(value: object, path: tuple = ()) -> list[tuple]:
 PATHS = paths(DOCUMENT)
 
 
-@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(st.tuples(st.sampled_from(PATHS), json_values), min_size=1, max_size=3))
 def test_any_document_is_a_sound_weather_or_an_error(changes):
     bad = copy.deepcopy(DOCUMENT)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import esper
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.worlds import fresh_world
@@ -28,6 +28,7 @@ def steps(area: RainArea, count: int, wind: tuple[float, float, float]) -> RainA
     return area
 
 
+@settings(deadline=None)
 @given(
     st.tuples(st.floats(-150, 150), st.floats(-150, 150)),
     st.floats(0, 1),

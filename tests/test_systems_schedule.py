@@ -6,7 +6,7 @@ import math
 
 import esper
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.worlds import fresh_world
@@ -125,6 +125,7 @@ def play(story: list[tuple[str, int]], looks: bool) -> tuple[list[int], int]:
         return sorted(uids.by_entity.values()), uids.next
 
 
+@settings(deadline=None)
 @given(lives)
 def test_looking_never_shows_in_the_uids(story):
     assert play(story, looks=True) == play(story, looks=False)

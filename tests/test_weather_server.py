@@ -284,7 +284,7 @@ def test_ten_thousand_creations_and_deletions_leave_memory_where_it_was():
     assert not weather._state.uids.by_entity
 
 
-@settings(max_examples=30)
+@settings(deadline=None, max_examples=30)
 @given(st.lists(st.floats(0.0, 10.0), max_size=30), st.integers(0, 100))
 def test_any_frame_times_keep_everything_finite(times, seed):
     rng = np.random.default_rng(seed)
