@@ -23,17 +23,16 @@ class QualitySettings:
     containers: int  # areas whose drops are drawn for one observer; the rest are veils
     heightmap_size: int  # texels on a side of the map of what the rain hits
     veil: bool  # rain beyond the containers
-    step_limit: int  # fixed steps that one draw may simulate
     budget: float = 1.0  # share of the drops that is used, 0.05 to 1
 
 
 LEVELS: dict[str, QualitySettings] = {
-    "low": QualitySettings("low", 6_000, 2, 256, True, 2),
-    "medium": QualitySettings("medium", 14_000, 4, 512, True, 4),
-    "high": QualitySettings("high", 50_000, 8, 1024, True, 4),
-    "ultra": QualitySettings("ultra", 120_000, 16, 2048, True, 8),
+    "low": QualitySettings("low", 6_000, 2, 256, True),
+    "medium": QualitySettings("medium", 14_000, 4, 512, True),
+    "high": QualitySettings("high", 50_000, 8, 1024, True),
+    "ultra": QualitySettings("ultra", 120_000, 16, 2048, True),
     # Everything that would be seen to jump is fixed; the share of the drops glides.
-    "auto": QualitySettings("auto", 120_000, 8, 512, True, 4, _FIRST_BUDGET),
+    "auto": QualitySettings("auto", 120_000, 8, 512, True, _FIRST_BUDGET),
 }
 
 
