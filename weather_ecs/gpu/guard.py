@@ -148,6 +148,12 @@ class StateGuard:
         gl.glColorMask(1, 1, 1, 1)
         gl.glDepthMask(1)
 
+    def reset(self) -> None:
+        """The state of the beginning once more: after code of the host's ran inside the guard."""
+        self.ctx.enable_only(moderngl.NOTHING)
+        self._state.reset()
+        self.bind_framebuffer()
+
     def _find_framebuffer(self, name: int) -> moderngl.Framebuffer:
         """A moderngl framebuffer for `name`: moderngl may know it, or it was bound without it."""
         if name == 0:

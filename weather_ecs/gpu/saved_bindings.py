@@ -160,9 +160,6 @@ class IndexedBuffers:
         for slots in self._slots:
             slots.save()
 
-    def baseline(self) -> None:
-        """Nothing: every binding that is used is set before."""
-
     def restore(self) -> None:
         for slots in self._slots:
             slots.restore()

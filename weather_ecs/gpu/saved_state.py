@@ -68,6 +68,13 @@ class Values:
             if values[place] != wanted:
                 setter(*prefix, wanted)
 
+    def reset(self) -> None:
+        """The baseline whatever the values are now."""
+        for function, arguments in self._baseline:
+            function(*arguments)
+        for _, wanted, setter, prefix in self._unchanged:
+            setter(*prefix, wanted)
+
     def restore(self) -> None:
         values = self.values
         for function, prefix, first, last in self._sets:
@@ -108,6 +115,14 @@ class Switches:
         for capability in self._foreign_on:
             gl.glDisable(capability)
 
+    def reset(self) -> None:
+        gl = self._gl
+        for capability, wanted in self._ours:
+            if wanted is not None:
+                (gl.glEnable if wanted else gl.glDisable)(capability)
+        for capability in self._foreign:
+            gl.glDisable(capability)
+
     def restore(self) -> None:
         enable, disable = self._gl.glEnable, self._gl.glDisable
         for (capability, _), on in zip(self._ours, self._on, strict=True):
@@ -146,7 +161,12 @@ class SavedState:
         for part in self._parts:
             part.baseline()
         self._textures.baseline()
-        self._buffers.baseline()
+
+    def reset(self) -> None:
+        """The baseline whatever was done since, as after foreign code."""
+        for part in self._parts:
+            part.reset()
+        self._textures.baseline()
 
     def restore(self) -> None:
         # Binding an indexed buffer also binds the plain one, so those come first.

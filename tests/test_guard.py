@@ -1,0 +1,367 @@
+"""The state guard: everything as it was, a known state inside, moderngl's own notions as well."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+
+from tests.gl_host import SWITCHES, Host, read_state
+from weather_ecs.errors import ContextError
+from weather_ecs.gpu.gl import GL
+from weather_ecs.gpu.guard import StateGuard
+
+SRGB = 0x8DB9
+Keep = Callable[[Any], Any]
+FILL = """#version 330
+void main() { gl_Position = vec4(ivec2(gl_VertexID & 1, gl_VertexID >> 1) * 4 - 1, 0, 1); }
+"""
+WHITE = "#version 330\nout vec4 color;\nvoid main() { color = vec4(1.0); }"
+
+
+@pytest.fixture
+def guard(ctx: moderngl.Context, gl: GL, keep: Keep) -> StateGuard:
+    return keep(StateGuard(ctx, gl))
+
+
+@pytest.fixture
+def fill(ctx: moderngl.Context, keep: Keep) -> moderngl.VertexArray:
+    """A triangle that covers the viewport in white."""
+    program = keep(ctx.program(vertex_shader=FILL, fragment_shader=WHITE))
+    return keep(ctx.vertex_array(program, []))
+
+
+def make_target(ctx: moderngl.Context, keep: Keep, size: tuple[int, int]) -> moderngl.Framebuffer:
+    color, depth = keep(ctx.texture(size, 4)), keep(ctx.depth_renderbuffer(size))
+    target = keep(ctx.framebuffer([color], depth))
+    target.clear()
+    return target
+
+
+def pixels(target: moderngl.Framebuffer) -> np.ndarray:
+    raw = target.read(components=4)
+    return np.frombuffer(raw, np.uint8).reshape(target.height, target.width, 4)
+
+
+def differences(before: dict[str, Any], after: dict[str, Any]) -> dict[str, Any]:
+    return {name: (before[name], after[name]) for name in before if before[name] != after[name]}
+
+
+@pytest.fixture
+def default_state(gl: GL, ctx: moderngl.Context) -> Iterator[None]:
+    """Puts the context back after a test that leaves it scrambled."""
+    outer = StateGuard(ctx, gl)
+    with outer:
+        yield
+        outer.reset()
+        gl.glDisable(SRGB)
+    outer.release()
+
+
+def work(ctx: moderngl.Context, gl: GL, guard: StateGuard) -> None:
+    """What passes do: make, fill, draw and release things of every kind."""
+    target = ctx.simple_framebuffer((8, 8))
+    target.use()
+    target.clear(0.1, 0.2, 0.3, 0.4, depth=0.5)
+    program = ctx.program(vertex_shader=FILL, fragment_shader=WHITE)
+    feedback = ctx.program(
+        vertex_shader="#version 330\nout float v;\nvoid main() { v = 1.0; }", varyings=("v",)
+    )
+    array, feedback_array = ctx.vertex_array(program, []), ctx.vertex_array(feedback, [])
+    texture = ctx.texture((4, 4), 4, b"\x01" * 64)
+    volume = ctx.texture3d((2, 2, 2), 1, b"\x01" * 8)
+    buffers = [ctx.buffer(reserve=256) for _ in range(2)]
+    for unit in range(8):
+        texture.use(unit)
+        volume.use(unit)
+    ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+    ctx.blend_func = moderngl.ADDITIVE_BLENDING
+    ctx.blend_equation = moderngl.MAX
+    ctx.depth_func = ">"
+    ctx.cull_face, ctx.front_face, ctx.wireframe = "front", "cw", True
+    ctx.polygon_offset, ctx.provoking_vertex = (2.0, 3.0), moderngl.FIRST_VERTEX_CONVENTION
+    gl.glDepthMask(0)
+    gl.glColorMask(1, 0, 1, 0)
+    gl.glDepthRange(0.2, 0.3)
+    for switch in (0x0C11, 0x0B90, 0x8037, 0x864F, 0x8C89, 0x8642):
+        gl.glEnable(switch)
+    gl.glDisable(0x8C89)
+    top = gl.get_int(0x8A2F) - 1
+    for slot in range(8):
+        buffers[0].bind_to_uniform_block(top - slot)
+        if gl.version >= 430:
+            buffers[1].bind_to_storage_buffer(slot)
+    feedback_array.transform(buffers, moderngl.POINTS, vertices=1)
+    array.render(moderngl.TRIANGLES, vertices=3)
+    ctx.copy_buffer(buffers[0], buffers[1])
+    buffers[0].orphan()
+    buffers[0].write(b"\x01" * 16)
+    texture.read_into(buffers[1])
+    guard.bind_framebuffer()
+    for thing in (*buffers, volume, texture, array, feedback_array, program, feedback):
+        thing.release()
+    for attachment in (*target.color_attachments, target.depth_attachment, target):
+        attachment.release()
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.usefixtures("default_state")
+def test_everything_is_put_back(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep, seed: int
+) -> None:
+    host = Host(ctx, gl, keep, seed)
+    host.scramble()
+    before = read_state(gl)
+    assert gl.error() == 0
+    with guard:
+        assert gl.error() == 0
+        work(ctx, gl, guard)
+        assert gl.error() == 0
+    assert gl.error() == 0
+    assert differences(before, read_state(gl)) == {}
+
+
+@pytest.mark.usefixtures("default_state")
+def test_the_baseline_does_not_depend_on_the_host(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep
+) -> None:
+    left_alone = ("buffer", "unit", "framebuffer", "viewport", "color", "index", "draw buffer",
+                  "srgb", "dither", "renderbuffer", "coverage", "offset", "copy", "active",
+                  "indirect", "program", "logic operation", "clear", "point", "scissor box",
+                  "feedback", "pixel")  # fmt: skip
+    states = []
+    host = Host(ctx, gl, keep, 0)
+    for _ in range(8):
+        host.scramble()
+        with guard:
+            state = read_state(gl)
+        assert gl.error() == 0
+        states.append({n: v for n, v in state.items() if not any(w in n for w in left_alone)})
+    assert all(state == states[0] for state in states)
+    assert states[0]["blend"] == states[0]["depth"] == states[0]["scissor"] == 0
+    assert states[0]["depth mask"] == (1,)
+    assert states[0]["depth range"] == (0.0, 1.0)
+    assert states[0]["unpack row"] == (0,)
+
+
+@pytest.mark.usefixtures("default_state")
+def test_uploads_are_safe_from_the_hosts_pixel_store(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep
+) -> None:
+    buffer = keep(ctx.buffer(reserve=64))
+    gl.glBindBuffer(0x88EC, buffer.glo)  # as a pixel unpack buffer
+    gl.glPixelStorei(0x0CF2, 7)
+    gl.glPixelStorei(0x0CF4, 1)
+    data = bytes(range(16))
+    with guard:
+        texture = keep(ctx.texture((4, 4), 1, data))
+        assert texture.read() == data
+
+
+def test_drawing_goes_to_the_hosts_moderngl_framebuffer(
+    ctx: moderngl.Context, guard: StateGuard, keep: Keep, fill: moderngl.VertexArray
+) -> None:
+    target, other = make_target(ctx, keep, (16, 8)), make_target(ctx, keep, (4, 4))
+    target.use()
+    target.viewport = (4, 2, 8, 4)
+    target.scissor = (0, 0, 1, 1)
+    with guard:
+        assert guard.framebuffer is target
+        assert guard.viewport == (4, 2, 8, 4)
+        other.use()
+        fill.render(moderngl.TRIANGLES, vertices=3)
+        guard.bind_framebuffer()
+        fill.render(moderngl.TRIANGLES, vertices=3)
+    assert ctx.fbo is target
+    assert target.viewport == (4, 2, 8, 4)
+    assert target.scissor == (0, 0, 1, 1)
+    target.scissor = None
+    white = pixels(target)[..., 0] == 255
+    assert white.sum() == 32
+    assert white[2:6, 4:12].all()
+    assert (pixels(other) == 255).all()
+
+
+def test_drawing_goes_to_a_framebuffer_bound_without_moderngl(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep, fill: moderngl.VertexArray
+) -> None:
+    target, known = make_target(ctx, keep, (16, 8)), make_target(ctx, keep, (4, 4))
+    known.use()
+    gl.glBindFramebuffer(0x8D40, target.glo)
+    gl.glViewport(0, 0, 16, 8)
+    with guard:
+        assert guard.framebuffer.glo == target.glo
+        assert guard.framebuffer.size == (16, 8)
+        # Makers of moderngl return to what it thinks is bound.
+        keep(ctx.framebuffer([keep(ctx.texture((2, 2), 4))])).clear(1.0, 0.0, 0.0)
+        fill.render(moderngl.TRIANGLES, vertices=3)
+    assert ctx.fbo is known
+    assert gl.get_int(0x8CA6) == target.glo
+    assert (pixels(target) == 255).all()
+    assert not pixels(known).any()
+
+
+def test_a_host_that_thinks_in_moderngl_alone_goes_on(
+    ctx: moderngl.Context, guard: StateGuard, keep: Keep, fill: moderngl.VertexArray
+) -> None:
+    target = make_target(ctx, keep, (8, 8))
+    target.use()
+    with guard:
+        keep(ctx.simple_framebuffer((4, 4))).use()
+        for attachment in (*ctx.fbo.color_attachments, ctx.fbo.depth_attachment):
+            keep(attachment)
+    ctx.clear(0.0, 1.0, 0.0)
+    assert pixels(target)[0, 0].tolist() == [0, 255, 0, 0]
+    ctx.viewport = (0, 0, 4, 8)
+    fill.render(moderngl.TRIANGLES, vertices=3)
+    assert (pixels(target)[:, :4] == 255).all()
+    assert (pixels(target)[:, 4:, 0] == 0).all()
+
+
+def test_moderngl_s_flags_survive(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep
+) -> None:
+    target = make_target(ctx, keep, (8, 8))
+    target.use()
+    ctx.enable_only(moderngl.DEPTH_TEST | moderngl.PROGRAM_POINT_SIZE)
+    with guard:
+        ctx.enable_only(moderngl.BLEND | moderngl.CULL_FACE)
+    with ctx.scope(target, moderngl.RASTERIZER_DISCARD):
+        pass  # a scope goes back to the flags moderngl remembers
+    on = {name: gl.glIsEnabled(value) for name, value in
+          {"blend": 0x0BE2, "cull": 0x0B44, "depth": 0x0B71, "point": 0x8642}.items()}  # fmt: skip
+    assert on == {"blend": 0, "cull": 0, "depth": 1, "point": 1}
+
+
+def test_what_moderngl_remembers_of_faces_survives(
+    ctx: moderngl.Context, guard: StateGuard
+) -> None:
+    def remembered() -> tuple[Any, ...]:
+        return ctx.wireframe, ctx.cull_face, ctx.front_face, ctx.polygon_offset
+
+    before = remembered()
+    with guard:
+        ctx.wireframe, ctx.cull_face, ctx.front_face = True, "front", "cw"
+        ctx.polygon_offset = (1.0, 2.0)
+    assert remembered() == before
+
+
+def test_the_choice_of_draw_buffers_survives(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep, fill: moderngl.VertexArray
+) -> None:
+    colors = [keep(ctx.texture((4, 4), 4)) for _ in range(2)]
+    target = keep(ctx.framebuffer(colors))
+    target.clear()
+    target.use()
+    chosen = (ctypes.c_uint * 2)(0, 0x8CE1)
+    gl.glDrawBuffers(2, ctypes.addressof(chosen))
+    with guard:
+        guard.framebuffer.use()  # moderngl chooses all of them here
+        guard.bind_framebuffer()
+    assert (gl.get_int(0x8825), gl.get_int(0x8826)) == (0, 0x8CE1)
+
+
+def test_layered_and_multisampled_framebuffers_raise_no_error(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep
+) -> None:
+    cube = keep(ctx.texture_cube((8, 8), 4))
+    targets = [
+        keep(ctx.framebuffer([keep(ctx.texture((8, 8), 4, samples=4))])),
+        keep(ctx.framebuffer([keep(ctx.texture_array((8, 8, 3), 4))])),
+        keep(ctx.framebuffer([keep(ctx.texture((8, 8), 4))])),
+        keep(ctx.framebuffer([], keep(ctx.depth_texture((8, 8))))),
+    ]
+    gl.glBindFramebuffer(0x8D40, targets[2].glo)
+    gl.glFramebufferTexture2D(0x8D40, 0x8CE0, 0x8515, cube.glo, 0)
+    for target in targets:
+        gl.glBindFramebuffer(0x8D40, target.glo)
+        with guard:
+            assert guard.framebuffer.glo == target.glo
+            assert gl.error() == 0
+        assert gl.error() == 0
+        assert gl.get_int(0x8CA6) == target.glo
+
+
+def test_an_exception_passes_and_the_state_is_back(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard
+) -> None:
+    before = read_state(gl)
+
+    def fail() -> None:
+        with guard:
+            ctx.enable_only(moderngl.BLEND)
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
+    assert differences(before, read_state(gl)) == {}
+
+
+@pytest.mark.usefixtures("default_state")
+def test_reset_after_foreign_code(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep
+) -> None:
+    host = Host(ctx, gl, keep, 1)
+    target = make_target(ctx, keep, (8, 8))
+    target.use()
+    before = read_state(gl)
+    units = [name for name in before if "unit " in name or "buffer 0x" in name]
+    with guard:
+        inside = read_state(gl)
+        host.scramble()
+        guard.reset()
+        after = read_state(gl)
+        gl.glDisable(SRGB)
+        wrong = differences(inside, after)
+    for name in ("draw framebuffer", "viewport", "depth mask", "unpack row", *SWITCHES):
+        assert name not in wrong or name == "srgb"
+    left = set(differences(before, read_state(gl)))
+    # What the guard does not know of is left as that code has it.
+    assert {name for name in left if name not in units} <= {"stencil clear"}
+
+
+def test_nested_use_changes_nothing(ctx: moderngl.Context, gl: GL, guard: StateGuard) -> None:
+    with guard:
+        gl.glEnable(0x0BE2)
+        with guard:
+            assert gl.glIsEnabled(0x0BE2)
+        assert gl.glIsEnabled(0x0BE2)
+    assert not gl.glIsEnabled(0x0BE2)
+
+
+def test_a_program_deleted_while_in_use(ctx: moderngl.Context, gl: GL, guard: StateGuard) -> None:
+    programs = [
+        ctx.program(vertex_shader="#version 330\nvoid main() { gl_Position = vec4(0.0); }")
+        for _ in range(2)
+    ]
+    gl.glUseProgram(programs[0].glo)
+    programs[0].release()
+    with guard:
+        gl.glUseProgram(programs[1].glo)
+    assert gl.error() == 0
+    gl.glUseProgram(0)
+    programs[1].release()
+
+
+def test_another_context_is_refused(ctx: moderngl.Context, guard: StateGuard) -> None:
+    other = moderngl.create_context(standalone=True, backend="egl")
+    try:
+        with other, pytest.raises(ContextError, match="not current"), guard:
+            pytest.fail("entered with another context current")
+    finally:
+        other.release()
+        ctx.__enter__()
+    with guard:
+        pass
+
+
+def test_release(ctx: moderngl.Context, gl: GL) -> None:
+    guard = StateGuard(ctx, gl)
+    guard.release()
+    guard.release()
+    with pytest.raises(ContextError, match="released"), guard:
+        pytest.fail("entered after release")
