@@ -9,12 +9,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from weather_ecs.errors import WeatherError
-from weather_ecs.presets import PRESETS
-
 from demo_game.headless import HeadlessOptions, TourError, encoder_is_installed, run_tour
 from demo_game.settings import BACKENDS, QUALITIES, Settings
 from demo_game.tours import TOURS
+from weather_ecs.errors import WeatherError
+from weather_ecs.presets import PRESETS
 
 DEFAULT_OUT = Path("out") / "demo"
 LARGEST_SIZE = 8192
@@ -85,23 +84,57 @@ def build_parser() -> argparse.ArgumentParser:
     )
     add("--frames", type=_number(int, 1, MOST_FRAMES, f"1 to {MOST_FRAMES}"), default=600)
     add("--size", type=_size, metavar="WxH", default=(1280, 720), help="default 1280x720")
-    add("--dt", type=_number(float, 1e-6, 10.0, "a step in s, up to 10"), default=1.0 / 60.0,
-        help="fixed step in seconds; the same command gives the same pictures")
+    add(
+        "--dt",
+        type=_number(float, 1e-6, 10.0, "a step in s, up to 10"),
+        default=1.0 / 60.0,
+        help="fixed step in seconds; the same command gives the same pictures",
+    )
     add("--seed", type=_number(int, 0, 2**63 - 1, "0 to 2^63 - 1"), default=0)
-    add("--quality", type=_one_of(QUALITIES), metavar="LEVEL", default=None,
-        help=f"{', '.join(QUALITIES)} (default: auto in a window, medium off screen)")
-    add("--backend", type=_one_of(BACKENDS), metavar="NAME", default="auto",
-        help=", ".join(BACKENDS))
-    add("--preset", type=_one_of(tuple(PRESETS)), metavar="NAME", default="heavy",
+    add(
+        "--quality",
+        type=_one_of(QUALITIES),
+        metavar="LEVEL",
+        default=None,
+        help=f"{', '.join(QUALITIES)} (default: auto in a window, medium off screen)",
+    )
+    add(
+        "--backend",
+        type=_one_of(BACKENDS),
+        metavar="NAME",
+        default="auto",
+        help=", ".join(BACKENDS),
+    )
+    add(
+        "--preset",
+        type=_one_of(tuple(PRESETS)),
+        metavar="NAME",
+        default="heavy",
         help=f"{', '.join(PRESETS)} (default heavy); on a tour only rain and wind follow it, so "
-        "that the difference of two runs is the rain")
-    add("--walk-speed", type=_number(float, 0.1, 20.0, "0.1 to 20 m/s"), default=1.4,
-        metavar="SPEED", help="of the tour crossing, m/s")
+        "that the difference of two runs is the rain",
+    )
+    add(
+        "--walk-speed",
+        type=_number(float, 0.1, 20.0, "0.1 to 20 m/s"),
+        default=1.4,
+        metavar="SPEED",
+        help="of the tour crossing, m/s",
+    )
     add("--out", type=Path, metavar="DIR", default=None, help="where the pictures go (PNG)")
-    add("--every", type=_number(int, 1, MOST_FRAMES, f"1 to {MOST_FRAMES}"), metavar="K",
-        default=None, help="a picture every K frames (default 60)")
-    add("--video", type=Path, metavar="FILE", default=None,
-        help="a film of the tour, such as walk.mp4 (needs imageio-ffmpeg)")
+    add(
+        "--every",
+        type=_number(int, 1, MOST_FRAMES, f"1 to {MOST_FRAMES}"),
+        metavar="K",
+        default=None,
+        help="a picture every K frames (default 60)",
+    )
+    add(
+        "--video",
+        type=Path,
+        metavar="FILE",
+        default=None,
+        help="a film of the tour, such as walk.mp4 (needs imageio-ffmpeg)",
+    )
     add("--stats", type=Path, metavar="FILE", default=None, help="JSON lines, one per frame")
     add("--fullscreen", action="store_true", help="open the window on the whole screen")
     return parser

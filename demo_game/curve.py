@@ -61,7 +61,7 @@ class Path:
         lengths = np.hypot(*np.diff(corners, axis=0).T)
         self.corner_lengths = np.concatenate(([0.0], np.cumsum(lengths)))
         self.length = float(self.corner_lengths[-1])
-        count = max(2, int(round(self.length / SPACING)) + 1)
+        count = max(2, round(self.length / SPACING) + 1)
         self._at = np.linspace(0.0, self.length, count)
         x = np.interp(self._at, self.corner_lengths, corners[:, 0])
         z = np.interp(self._at, self.corner_lengths, corners[:, 1])
@@ -80,7 +80,7 @@ class Path:
 
 def rounded(values: NDArray[np.float64], width: float) -> NDArray[np.float64]:
     """Values at SPACING along a path, averaged over `width` metres, both ends held."""
-    half = int(round(width / SPACING / 2))
+    half = round(width / SPACING / 2)
     if half < 1:
         return values
     kernel = np.hanning(2 * half + 3)[1:-1]

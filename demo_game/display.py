@@ -37,9 +37,7 @@ def make_window(
 
     reason: Exception | None = None
     for major, minor in VERSIONS:
-        config = Config(
-            double_buffer=True, depth_size=24, major_version=major, minor_version=minor
-        )
+        config = Config(double_buffer=True, depth_size=24, major_version=major, minor_version=minor)
         try:
             surface = windows.Window(1, 1, config=config, visible=False)
         except Exception as error:  # each platform has its own for a version it does not have

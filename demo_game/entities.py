@@ -6,11 +6,11 @@ import math
 from typing import Any
 
 import esper
-from weather_ecs.components import Occluder, PointLight, RainArea, RainContainer, Sun, Wind
 
 from demo_game.mood import Mood
 from demo_game.place import Place
 from demo_game.skies import Light
+from weather_ecs.components import Occluder, PointLight, RainArea, RainContainer, Sun, Wind
 
 CENTER = (0.0, -70.0)  # (x, z), m, of the rain area that the walk leads through
 RADII = (70.0, 45.0)  # m

@@ -8,9 +8,6 @@ from typing import Any
 
 import esper
 import moderngl
-from weather_ecs import Weather
-from weather_ecs.components import RainArea
-from weather_ecs.presets import PRESETS
 
 from demo_game.camera import Pose, projection_matrix, view_matrix
 from demo_game.collision import Colliders
@@ -22,12 +19,15 @@ from demo_game.render import Environment, SceneRenderer
 from demo_game.settings import Settings
 from demo_game.skies import SkyChanger
 from demo_game.tours import Tour
+from weather_ecs import Weather
+from weather_ecs.components import RainArea
+from weather_ecs.errors import WeatherError
+from weather_ecs.presets import PRESETS
 
 WIND_HEADING = math.radians(-20.0)  # to the east, a little south
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 START = (0.0, 70.0)  # (x, z), m, where a player begins, looking north
 CLEAR_FOG, RAIN_FOG = 0.00018, 0.0011  # 1/m under a clear and a covered sky
-WETTING, DRYING = 12.0, 60.0  # s until the ground in the rain is wet, and dry again
 
 _numbers = itertools.count(1)
 STILL = Intent()
@@ -58,10 +58,14 @@ class Game:
         self.place = place if place is not None else Place(seed)
         self.player = Player(self.place, Colliders.of(self.place.colliders))
         self.player.place_at(*START, yaw=0.0)
-        self._wetness = min(self.mood.current.rain_rate / 2.0, 1.0)
         self._entities = Entities(self.place, self.mood.current, self._light())
         self.scene = SceneRenderer(context, self.place, settings.quality)
-        self.weather = self._make_weather()
+        try:
+            self.weather = self._make_weather()
+        except WeatherError:
+            self.scene.release()
+            self._leave_world()
+            raise
         self.pose = self._pose()
 
     @property
@@ -80,7 +84,6 @@ class Game:
         self.time += dt
         self.mood.update(dt)
         self.sky.update(dt)
-        self._wet(dt)
         self._entities.update(self.mood.current, self._light(), self.time)
         if self.tour is None:
             self.player.update(dt, intent)
@@ -130,7 +133,11 @@ class Game:
         esper.switch_world(self._world)
         self.weather.close()
         self.scene.release()
-        esper.switch_world(self._before)
+        self._leave_world()
+
+    def _leave_world(self) -> None:
+        before = self._before if self._before in esper.list_worlds() else "default"
+        esper.switch_world(before)
         esper.delete_world(self._world)
 
     def _change_backend(self) -> None:
@@ -160,14 +167,6 @@ class Game:
     def _light(self) -> Any:
         return self.sky.light(self._overcast())
 
-    def _wet(self, dt: float) -> None:
-        if self.tour is not None:
-            self._wetness = 1.0
-            return
-        goal = min(self.mood.current.rain_rate / 2.0, 1.0)
-        time = WETTING if goal > self._wetness else DRYING
-        self._wetness += (1.0 - math.exp(-dt / time)) * (goal - self._wetness)
-
     def _environment(self) -> Environment:
         light, overcast = self._light(), self._overcast()
         mood = self.mood.current
@@ -181,7 +180,7 @@ class Game:
             horizon_color=light.horizon_color,
             ground_color=light.ground_color,
             overcast=overcast,
-            wetness=self._wetness,
+            wetness=0.0,  # but in the rain areas, which the renderer wets itself
             fog_density=CLEAR_FOG + overcast * (RAIN_FOG - CLEAR_FOG),
             fog_color=light.horizon_color,
             rain_areas=[

@@ -6,8 +6,6 @@ import logging
 from collections.abc import Callable
 from typing import Any
 
-import pyglet
-
 from demo_game.input import Controls
 
 
@@ -35,9 +33,7 @@ class Gamepads:
         for controller in list(self._open):
             self._disconnect(controller)
         if self._manager is not None:
-            self._manager.remove_handlers(
-                on_connect=self._connect, on_disconnect=self._disconnect
-            )
+            self._manager.remove_handlers(on_connect=self._connect, on_disconnect=self._disconnect)
             self._manager = None
 
     def _connect(self, controller: Any) -> None:

@@ -10,6 +10,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -55,9 +56,9 @@ def make_context() -> moderngl.Context:
 
     Raises TourError where the machine has no OpenGL 3.3.
     """
-    backend = {"backend": "egl"} if sys.platform.startswith("linux") else {}
+    options: dict[str, Any] = {"backend": "egl"} if sys.platform.startswith("linux") else {}
     try:
-        return moderngl.create_context(standalone=True, require=330, **backend)
+        return moderngl.create_context(standalone=True, require=330, **options)
     except Exception as error:  # moderngl and glcontext raise plain Exception
         raise TourError(f"no OpenGL 3.3 off screen: {error}") from error
 
@@ -68,8 +69,9 @@ def run_tour(options: HeadlessOptions, settings: Settings) -> str:
     Raises TourError, OSError, or the weather's own errors.
     """
     if options.video is not None and not encoder_is_installed():
-        raise TourError("argument --video: no encoder here, allowed: after pip install "
-                        "imageio-ffmpeg")
+        raise TourError(
+            "argument --video: no encoder here, allowed: after pip install imageio-ffmpeg"
+        )
     times: list[float] = []
     with ExitStack() as stack:
         if options.out is not None:
@@ -86,9 +88,7 @@ def run_tour(options: HeadlessOptions, settings: Settings) -> str:
         target = _Target(context, options.size)
         stack.callback(target.release)
         place = Place(options.seed)
-        tour = make_tour(
-            options.tour, place, (options.frames - 1) * options.dt, options.walk_speed
-        )
+        tour = make_tour(options.tour, place, (options.frames - 1) * options.dt, options.walk_speed)
         game = Game(
             context, settings, place=place, seed=options.seed, preset=options.preset, tour=tour
         )

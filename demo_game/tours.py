@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -76,7 +75,7 @@ class Tour:
         name: str,
         route: Route,
         along: Callable[[float], float],
-        look: Look,
+        look: Callable[[float], tuple[float, float]],
         stages: Callable[[float], str],
         *,
         hurried: bool = False,

@@ -27,8 +27,8 @@ from pyglet.gl import (
 )
 from pyglet.window import key
 
-from demo_game.gamepad import Gamepads
 from demo_game.game import Game
+from demo_game.gamepad import Gamepads
 from demo_game.input import PRESET_KEYS, Controls
 from demo_game.pictures import save_screenshot
 from demo_game.settings import Settings
@@ -267,9 +267,7 @@ class GameWindow(pyglet.window.Window):
         elif self.screen_shown is Screen.PAUSE:
             self._menu.point(self.overlay.pause_view.row_at(x, y))
 
-    def on_mouse_drag(
-        self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int
-    ) -> None:
+    def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int) -> None:
         """The same with a button held."""
         self.on_mouse_motion(x, y, dx, dy)
 

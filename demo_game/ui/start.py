@@ -27,9 +27,7 @@ class StartView:
             layer.add(_strip(layer, base + band + index * strip, strip, share))
             layer.add(_strip(layer, base - (index + 1) * strip, strip, share))
         middle = frame.width / 2
-        layer.text(
-            "The Walk", middle, base + px(188), 58, bold=True, anchor_x="center", color=TEXT
-        )
+        layer.text("The Walk", middle, base + px(188), 58, bold=True, anchor_x="center", color=TEXT)
         layer.text(LINE, middle, base + px(126), 18, anchor_x="center", color=TEXT)
         layer.text(
             "Press Enter or click to begin",
