@@ -27,8 +27,10 @@ void main()
     float depth = texelFetch(scene_depth, ivec2(gl_FragCoord.xy - view_origin.xy), 0).r;
     float t1 = depth >= 1.0 ? 1e5 : view_depth.y / (depth * 2.0 - 1.0 + view_depth.x);
     float t0 = 0.0;
-    if (ray.y > 1e-6) t1 = min(t1, (veil_span.y - camera_position.y) / ray.y);
-    else if (ray.y < -1e-6) t0 = max(t0, (veil_span.y - camera_position.y) / ray.y);
+    float rise = abs(ray.y) < 1e-6 ? 1e-6 : ray.y;
+    float cut = (veil_span.y - camera_position.y) / rise;
+    if (rise > 0.0) t1 = min(t1, cut);
+    else t0 = max(t0, cut);
 
     vec2 o = camera_position.xz - veil_axis.xy;
     vec2 o2 = vec2(o.x * veil_axis.z - o.y * veil_axis.w, o.x * veil_axis.w + o.y * veil_axis.z)
@@ -37,7 +39,10 @@ void main()
                    ray.x * veil_axis.w + ray.z * veil_axis.z) / veil_shape.xy;
     float a = max(dot(r2, r2), 1e-12);
     float middle = -dot(o2, r2) / a;
-    float lowest = dot(o2, o2) - a * middle * middle;
+    // The ray's distance from the middle, squared. As o2 . o2 - a middle^2 it would be the small
+    // difference of two large numbers where a thin area is far off.
+    float aside = o2.x * r2.y - o2.y * r2.x;
+    float lowest = aside * aside / a;
 
     // The drops' share falls from 1 at the observer to 0 at the distance veil_load.y.
     float level = length(ray.xz);

@@ -1,0 +1,344 @@
+"""The veil: its closed integral against brute force, its pixels against the closed integral."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from tests.rain_frames import area, camera, frame, quality
+from weather_ecs.frame import SkyLight, VeilData, ViewData
+from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.rain_blocks import RAIN_VIEW
+from weather_ecs.gpu.shader_loader import ShaderLoader
+from weather_ecs.gpu.veil_pass import VeilPass
+from weather_ecs.gpu.view_block import encode, fill_view, veil_light
+from weather_ecs.physics import veil
+from weather_ecs.physics.camera import Camera
+from weather_ecs.systems.rain_view import RainView
+
+SIZE = (96, 54)
+NORTH = math.pi / 2
+GRAIN = 0.5 * 1.6 / 255.0
+
+
+# The closed integral
+
+
+def brute_path(
+    position: Any, ray: np.ndarray, end: float, axis: Any, shape: Any, ceiling: float, shown: float
+) -> float:
+    """Midpoint sum of the soft profile along one ray, less the drops' share."""
+    level = float(np.hypot(ray[0], ray[2]))
+    # Nothing falls farther off than the ellipse's farther end.
+    reach = math.dist((position[0], position[2]), axis[:2]) + shape[0]
+    last = min(end, veil.BEYOND, reach / max(level, 1e-9))
+    t = (np.arange(30_000) + 0.5) * (last / 30_000)
+    at = np.asarray(position) + ray * t[:, None]
+    share = veil.full_share(at[:, [0, 2]], axis, shape) * (at[:, 1] <= ceiling)
+    share *= 1.0 - veil.drops_share(t, level, shown)
+    return float(share.sum() * last / 30_000 * np.linalg.norm(ray))
+
+
+def axis_of(center: tuple[float, float], heading: float) -> tuple[float, float, float, float]:
+    return (*center, math.cos(heading), math.sin(heading))
+
+
+heading = st.floats(-math.pi, math.pi)
+length = st.floats(1.0, 400.0)
+place = st.tuples(st.floats(-500, 500), st.floats(0, 500), st.floats(-500, 500))
+ways = st.builds(
+    lambda h, p: np.array([math.cos(h) * math.cos(p), math.sin(p), -math.sin(h) * math.cos(p)]),
+    heading, st.floats(-1.5, 1.5),
+)  # fmt: skip
+
+
+@settings(max_examples=50, deadline=None)
+@given(place, ways, length, length, heading, st.floats(0, 0.99), st.floats(20, 400),
+       st.floats(0.5, 3000))  # fmt: skip
+def test_the_integral_is_that_of_the_profile(
+    position: Any, ray: np.ndarray, a: float, b: float, turn: float, inner: float, ceiling: float,
+    end: float,
+) -> None:  # fmt: skip
+    assume(abs(position[1] - ceiling) > 0.01)  # along the ceiling itself either answer is right
+    axis, shape = axis_of((20.0, -30.0), turn), (max(a, b), min(a, b), inner)
+    found = veil.rain_path(position, ray[None], [end], axis, shape, ceiling)[0]
+    expected = brute_path(position, ray, end, axis, shape, ceiling, 0.0)
+    assert found == pytest.approx(expected, rel=2e-3, abs=0.05)
+
+
+@pytest.mark.parametrize("shown", [0.3, 10.0, 60.0])
+@pytest.mark.parametrize("end", [0.1, 8.0, 45.0, 90.0, math.inf])
+def test_the_drops_share_is_left_out_where_it_rains_at_the_full_rate(
+    shown: float, end: float
+) -> None:
+    """Of a ray inside the full rate, what is left is the integral of what the drops do not show."""
+    axis, shape = axis_of((0.0, 0.0), 0.3), (900.0, 800.0, 0.9)
+    for pitch in (0.0, 0.5, -0.3):
+        ray = np.array([math.cos(pitch), math.sin(pitch), 0.0])
+        found = veil.rain_path((1.0, 2.0, 3.0), ray[None], [end], axis, shape, 5000.0, shown)[0]
+        expected = brute_path((1.0, 2.0, 3.0), ray, end, axis, shape, 5000.0, shown)
+        assert found == pytest.approx(expected, rel=1e-3, abs=1e-3)
+
+
+@settings(max_examples=50, deadline=None)
+@given(place, ways, st.floats(0, 0.99), st.floats(0, 200), st.floats(0, 500), st.floats(0, 500))
+def test_a_path_grows_with_its_end_and_shrinks_with_what_is_shown(
+    position: Any, ray: np.ndarray, inner: float, shown: float, first: float, more: float
+) -> None:
+    axis, shape = axis_of((0.0, 0.0), 0.4), (120.0, 60.0, inner)
+    rays = np.tile(ray, (2, 1))
+    near, far = veil.rain_path(position, rays, [first, first + more], axis, shape, 300.0)
+    assert 0.0 <= near <= far + 1e-9
+    assert near <= first + 1e-9 and far <= first + more + 1e-9
+    left = veil.rain_path(position, rays, [first, first + more], axis, shape, 300.0, shown)
+    assert 0.0 <= left[0] <= near + 1e-9 and 0.0 <= left[1] <= far + 1e-9
+
+
+def test_the_profile_and_the_opacity() -> None:
+    axis, shape = axis_of((5.0, 5.0), 1.0), (50.0, 30.0, 0.64)
+    rim = np.array([[5.0 + 50.0 * math.cos(1.0) * r, 5.0 - 50.0 * math.sin(1.0) * r]
+                    for r in (0.0, 0.79, 0.81, 1.0, 1.2)])  # fmt: skip
+    share = veil.full_share(rim, axis, shape)
+    assert share[0] == share[1] == 1.0 and share[3:] == pytest.approx([0.0, 0.0])
+    assert share[2] == pytest.approx((1 - 0.81**2) / 0.36)
+    assert veil.opacity([0.0, 100.0], 0.01) == pytest.approx([0.0, 1 - math.exp(-1)])
+
+
+# The shader
+
+
+def only(at: Camera, data: VeilData, sky: SkyLight | None = None) -> ViewData:
+    """A view in which there is this veil and nothing else."""
+    seen = frame(sky=sky or SkyLight())
+    return ViewData(seen, 0, at.view, at.projection, at.position, (0.0, 0.0, 0.0), 0.0, (), (data,))
+
+
+class Stage:
+    """Draws veils into a float target and keeps the depth that cuts them."""
+
+    def __init__(self, ctx: moderngl.Context, size: tuple[int, int] = SIZE) -> None:
+        self.ctx, self.size = ctx, size
+        self.shaders = ShaderLoader(ctx)
+        self.veils = VeilPass(ctx, self.shaders)
+        self.block = BlockBuffer(ctx, RAIN_VIEW)
+        self.color = ctx.texture((160, 90), 4, dtype="f4")
+        self.target = ctx.framebuffer([self.color])
+
+    def draw(
+        self, view: ViewData, depth: np.ndarray | None = None, origin: tuple[int, int] = (0, 0)
+    ) -> np.ndarray:
+        """Colour and opacity (rows from below, columns, 4); 0 where nothing was drawn."""
+        width, height = self.size
+        stored = np.ones((height, width), np.float32) if depth is None else depth
+        texture = self.ctx.depth_texture(self.size, np.ascontiguousarray(stored, np.float32))
+        texture.compare_func = ""
+        texture.filter = moderngl.NEAREST, moderngl.NEAREST
+        self.target.use()
+        self.target.clear()
+        self.target.viewport = (*origin, width, height)
+        fill_view(self.block, view, (*origin, width, height))
+        self.block.upload()
+        self.block.bind()
+        self.ctx.enable_only(moderngl.CULL_FACE)
+        self.ctx.front_face, self.ctx.cull_face = "ccw", "front"
+        self.veils.draw(view, texture)
+        self.ctx.cull_face = "back"
+        self.target.viewport = (0, 0, 160, 90)
+        pixels = np.frombuffer(self.target.read(components=4, dtype="f4"), np.float32)
+        texture.release()
+        x, y = origin
+        return pixels.reshape(90, 160, 4)[y : y + height, x : x + width]
+
+    def release(self) -> None:
+        for thing in (self.target, self.color, self.block, self.veils, self.shaders):
+            thing.release()
+
+
+@pytest.fixture
+def stage(ctx: moderngl.Context) -> Iterator[Stage]:
+    made = Stage(ctx)
+    yield made
+    made.release()
+
+
+def rays_of(at: Camera, size: tuple[int, int] = SIZE) -> np.ndarray:
+    """Rays through the middles of the pixels, (height, width, 3), 1 long along forward."""
+    width, height = size
+    x = (np.arange(width) + 0.5) / width * 2.0 - 1.0
+    y = (np.arange(height) + 0.5) / height * 2.0 - 1.0
+    p = at.projection
+    ex, ey = np.meshgrid((x + p[0, 2]) / p[0, 0], (y + p[1, 2]) / p[1, 1])
+    return np.stack([ex, ey, -np.ones_like(ex)], axis=-1) @ at.view[:3, :3]
+
+
+def oracle(at: Camera, data: VeilData, end: Any = math.inf) -> np.ndarray:
+    """Opacity of every pixel."""
+    path = veil.rain_path(
+        at.position, rays_of(at), end, data.axis, data.shape, data.span[1], data.shown
+    )
+    return veil.opacity(path, data.extinction)
+
+
+def assert_same(found: np.ndarray, expected: np.ndarray, atol: float = 2e-3) -> None:
+    """The oracle's opacity, but for what is too faint to be drawn; colour where there is any."""
+    alpha = found[..., 3]
+    assert np.isfinite(found).all()
+    assert np.abs(alpha - np.where(expected < 0.002, 0.0, expected)).max() <= atol + 0.002
+    drawn = expected > 0.003 + atol
+    assert np.abs(alpha - expected)[drawn].max(initial=0.0) <= atol
+    light = encode(veil_light(SkyLight()))
+    off = np.abs(found[..., :3] - light).max(axis=2) * np.maximum(expected, 0.05)
+    assert off[drawn].max(initial=0.0) <= GRAIN * 1.1
+
+
+def shaft(**changes: Any) -> VeilData:
+    """A veil 150 m off, straight along -z, thick enough to be measured.
+
+    It reaches so far down because in these scenes no ground ends what is seen below the horizon.
+    """
+    shape = (70.0, 45.0, 0.5)
+    whole = VeilData(axis_of((0.0, -150.0), 0.4), shape, (-3e4, 200.0), 0.02, 0.0)
+    return replace(whole, **changes)
+
+
+HERE = (0.0, 1.7, 0.0)
+SCENES = {
+    "from outside": (camera(HERE, NORTH), shaft()),
+    "turned away": (camera(HERE, -NORTH), shaft()),
+    "from inside": (camera((10.0, 1.7, -140.0), 1.0), shaft()),
+    "from the middle, with drops": (camera((0.0, 1.7, -150.0), 1.0), shaft(shown=35.0)),
+    "from outside, with drops": (camera((0.0, 1.7, -95.0), NORTH), shaft(shown=12.0)),
+    "from the rim, out": (camera((0.0, 1.7, -104.9), -NORTH), shaft()),
+    "looking up": (camera((5.0, 1.7, -150.0), 0.3, 1.35), shaft()),
+    "straight up": (camera((5.0, 1.7, -150.0), 0.3, math.pi / 2), shaft()),
+    "straight up, with drops": (camera((5.0, 1.7, -150.0), 0.3, math.pi / 2), shaft(shown=20.0)),
+    "looking down": (camera((5.0, 150.0, -150.0), 0.3, -1.2), shaft(extinction=0.003)),
+    "above the ceiling": (camera((0.0, 260.0, 0.0), NORTH, -0.5), shaft(extinction=0.003)),
+    "above the ceiling, level": (camera((0.0, 260.0, 0.0), NORTH, -1e-9), shaft()),
+    "above the ceiling, up": (camera((0.0, 260.0, 0.0), NORTH, 0.7), shaft()),
+    "over it, straight down": (camera((0.0, 320.0, -150.0), NORTH, -1.57), shaft(extinction=1e-3)),
+    "hard edge": (camera(HERE, NORTH), shaft(shape=(70.0, 45.0, 0.9999))),
+    "all edge": (camera(HERE, NORTH), shaft(shape=(70.0, 45.0, 0.0))),
+    "thin, across": (camera(HERE, NORTH), shaft(shape=(400.0, 2.0, 0.0), extinction=0.3)),
+    "thin, along": (
+        camera((0.0, 1.7, 0.3), 0.0),
+        shaft(axis=axis_of((0.0, 0.0), 0.0), shape=(400.0, 2.0, 0.3)),
+    ),
+    "wide angle": (camera(HERE, NORTH, vertical=120.0), shaft()),
+    "narrow angle": (camera(HERE, NORTH, vertical=8.0), shaft()),
+    "far off": (camera((0.0, 1.7, 4000.0), NORTH, vertical=20.0), shaft()),
+    "far off, hard edge": (
+        camera((0.0, 1.7, 4000.0), NORTH, vertical=4.0),
+        shaft(shape=(70.0, 45.0, 0.9999)),
+    ),
+    "far off, thin": (
+        camera((0.0, 1.7, 4000.0), NORTH, vertical=4.0),
+        shaft(shape=(300.0, 3.0, 0.2), extinction=0.2),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_pixels_are_those_of_the_oracle(stage: Stage, name: str) -> None:
+    at, data = SCENES[name]
+    expected = oracle(at, data)
+    assert_same(stage.draw(only(at, data)), expected)
+    seen = name not in ("turned away", "from the rim, out", "above the ceiling, up")
+    assert (expected.max() > 0.1) == seen  # the scene is one in which there is something to see
+
+
+def test_many_views_of_many_veils(stage: Stage) -> None:
+    rng = np.random.default_rng(4)
+    for _ in range(25):
+        x, z = rng.uniform(-300, 300, 2)
+        at = camera(
+            (x, rng.uniform(0, 300), z), rng.uniform(-3, 3), rng.uniform(-1.5, 1.5),
+            rng.uniform(20, 110), rng.uniform(0.5, 2.5),
+        )  # fmt: skip
+        b, a = np.sort(rng.uniform(5, 300, 2)).tolist()
+        data = VeilData(
+            axis_of((0.0, 0.0), rng.uniform(-3, 3)), (a, b, rng.uniform(0, 0.95)),
+            (-3e4, rng.uniform(50, 400)), rng.uniform(0.001, 0.05), rng.choice([0.0, 5.0, 40.0]),
+        )  # fmt: skip
+        assert_same(stage.draw(only(at, data)), oracle(at, data))
+
+
+def test_the_scene_cuts_the_ray(stage: Stage) -> None:
+    """Half the picture has something in front of it, at depths from within to beyond the rain."""
+    at = camera((0.0, 1.7, -150.0), 1.0, far=500.0)
+    data = shaft()
+    t = np.geomspace(0.2, 400.0, SIZE[0])[None, :].repeat(SIZE[1], 0)
+    p = at.projection
+    stored = (((-p[2, 2] * t + p[2, 3]) / t) * 0.5 + 0.5).astype(np.float32)
+    stored[: SIZE[1] // 2] = 1.0
+    end = veil.scene_depth(stored, p)
+    assert end[-1] == pytest.approx(t[-1], rel=2e-3)
+    expected = oracle(at, data, end)
+    assert_same(stage.draw(only(at, data), stored), expected)
+    assert expected[-1, 0] < 0.01 < 0.3 < expected[0, 0]
+
+
+def test_the_far_plane_does_not_cut_it(stage: Stage) -> None:
+    """Rain beyond the far plane, in front of nothing, is seen; so is rain that it runs through."""
+    for far in (40.0, 160.0, 1e5):
+        at = camera(HERE, NORTH, near=0.05, far=far)
+        assert_same(stage.draw(only(at, shaft())), oracle(camera(HERE, NORTH), shaft()))
+
+
+def test_the_near_plane_does_not_cut_it(stage: Stage) -> None:
+    at = camera((0.0, 1.7, -150.0), NORTH, near=30.0)
+    assert_same(stage.draw(only(at, shaft())), oracle(at, shaft()))
+
+
+def test_a_viewport_elsewhere_in_the_picture(stage: Stage) -> None:
+    at, data = camera((0.0, 1.7, -150.0), 1.0), shaft()
+    rng = np.random.default_rng(3)
+    stored = rng.uniform(0.9, 1.0, (SIZE[1], SIZE[0])).astype(np.float32)
+    found = stage.draw(only(at, data), stored, origin=(31, 17))
+    assert_same(found, oracle(at, data, veil.scene_depth(stored, at.projection)))
+
+
+def test_a_lopsided_frustum(stage: Stage) -> None:
+    """As for the eyes of a headset, or for tiles of a large picture."""
+    at = camera(HERE, NORTH)
+    at.projection[0, 2], at.projection[1, 2] = 0.4, -0.3
+    assert_same(stage.draw(only(at, shaft())), oracle(at, shaft()))
+
+
+def test_a_veil_in_several_of_a_frame(stage: Stage) -> None:
+    """Each goes over what the one before has left: the light that gets through multiplies."""
+    at = camera(HERE, NORTH)
+    seen = frame(area(0, (0.0, -150.0)), area(1, (40.0, -260.0), rain_rate=60.0))
+    view = RainView().view(seen, at, 0, quality(containers=0))
+    assert len(view.veils) == 2
+    through = np.ones((SIZE[1], SIZE[0]))
+    for data in view.veils:
+        expected = oracle(at, data)
+        assert_same(stage.draw(only(at, data)), expected)
+        through *= 1.0 - expected
+    assert through.min() < 0.9
+
+
+@pytest.mark.parametrize("sides", [(1.0, 1.0), (-1.0, 1.0)])
+def test_parallel_rays_do_no_harm(stage: Stage, sides: tuple[float, float]) -> None:
+    """A picture without perspective has no rain in it that would mean anything, and no NaN."""
+    at = camera(HERE, NORTH)
+    at.projection[:] = np.diag([0.01 * sides[0], 0.01 * sides[1], -0.001, 1.0])
+    assert np.isfinite(stage.draw(only(at, shaft()))).all()
+
+
+def test_a_level_look_above_the_ceiling_has_no_line_along_the_horizon(stage: Stage) -> None:
+    """The middle row of an odd number of rows looks exactly along the ceiling."""
+    stage.size = (95, 53)
+    at = camera((0.0, 260.0, 0.0), NORTH)
+    found = stage.draw(only(at, shaft()))
+    assert found[26:, :, 3].max() == 0.0
+    assert found[:26, :, 3].max() > 0.1

@@ -1,0 +1,124 @@
+"""The veil: rain along a view ray, less what the drops show; the oracle of `shaders/veil.frag`.
+
+The same symbols and the same order as there, in float64. With f the ellipse's implicit function,
+the rain rate's share at a point is (1 - f) / (1 - inner), at most 1 and 0 outside: along a ray f
+is a quadratic in t, so the integral is closed. Rays have the length 1 along the camera's forward
+axis, so that t is the depth below the camera, in metres.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .checks import FloatArray
+
+BEYOND = 1e5  # m, where a ray ends that meets nothing
+
+
+def full_share(
+    points: NDArray, axis: tuple[float, ...], shape: tuple[float, float, float]
+) -> FloatArray:
+    """Share of the rain rate at (x, z), (n,): what `rain_path` is the integral of.
+
+    axis: centre x, centre z, cos heading, sin heading. shape: a, b, and the level of f inside which
+    the rate is full.
+    """
+    ex, ez = points[..., 0] - axis[0], points[..., 1] - axis[1]
+    u = (ex * axis[2] - ez * axis[3]) / shape[0]
+    w = (ex * axis[3] + ez * axis[2]) / shape[1]
+    return np.clip((1.0 - u * u - w * w) / (1.0 - shape[2]), 0.0, 1.0)
+
+
+def drops_share(t: ArrayLike, level: float, reach: float) -> FloatArray:
+    """Share of the rain at depth t that the drops show, from 1 at the observer to 0 at `reach`.
+
+    `level`: horizontal metres of the ray per metre of depth; `reach`: m, 0 for no drops.
+    """
+    if reach <= 0.0:
+        return np.zeros_like(np.asarray(t, np.float64))
+    return np.clip(1.0 - np.asarray(t, np.float64) * level / reach, 0.0, 1.0)
+
+
+def over_level(
+    level: float, lowest: NDArray, a: NDArray, middle: NDArray, t0: NDArray, t1: NDArray
+) -> FloatArray:
+    """Integral over [t0, t1] of max(level - f(t), 0), f(t) = lowest + a (t - middle)^2."""
+    h = level - lowest
+    half_chord = np.sqrt(np.maximum(h, 0.0) / a)
+    x0 = np.clip(t0 - middle, -half_chord, half_chord)
+    x1 = np.clip(t1 - middle, -half_chord, half_chord)
+    area = (x1 - x0) * (h - a * (x0 * x0 + x0 * x1 + x1 * x1) / 3.0)
+    return np.where(h > 0.0, area, 0.0)
+
+
+def rain_span(
+    position: tuple[float, float, float],
+    ray: NDArray,
+    end: ArrayLike,
+    ceiling: float,
+    shown: float,
+) -> tuple[FloatArray, FloatArray]:
+    """Depths (t0, t1) between which the veil counts: under the ceiling, before the scene's `end`.
+
+    t0 leaves out as much as the drops show: the integral of their share, up to t1.
+    """
+    t1 = np.minimum(np.asarray(end, np.float64), BEYOND)
+    rise = np.where(np.abs(ray[..., 1]) < 1e-6, 1e-6, ray[..., 1])
+    cut = (ceiling - position[1]) / rise
+    t1 = np.where(rise > 0.0, np.minimum(t1, cut), t1)
+    t0 = np.where(rise < 0.0, np.maximum(cut, 0.0), 0.0)
+    if shown > 0.0:
+        level = np.hypot(ray[..., 0], ray[..., 2])
+        reach = shown / np.maximum(level, 1e-4)
+        x = np.minimum(t1 / np.maximum(reach, 1e-4), 1.0)
+        t0 = np.maximum(t0, reach * x * (1.0 - 0.5 * x))
+    return t0, t1
+
+
+def rain_path(
+    position: tuple[float, float, float],
+    ray: NDArray,
+    end: ArrayLike,
+    axis: tuple[float, ...],
+    shape: tuple[float, float, float],
+    ceiling: float,
+    shown: float = 0.0,
+) -> FloatArray:
+    """Metres of rain at its full rate along rays (..., 3) that end at the depths `end`.
+
+    For `axis` and `shape` see `full_share`; `shown` is the distance (m) at which the drops' share
+    has fallen to 0. Multiplied by the extinction this is the optical depth.
+    """
+    t0, t1 = rain_span(position, ray, end, ceiling, shown)
+    c, s = axis[2], axis[3]
+    ox, oz = position[0] - axis[0], position[2] - axis[1]
+    u, w = (ox * c - oz * s) / shape[0], (ox * s + oz * c) / shape[1]
+    du = (ray[..., 0] * c - ray[..., 2] * s) / shape[0]
+    dw = (ray[..., 0] * s + ray[..., 2] * c) / shape[1]
+    a = np.maximum(du * du + dw * dw, 1e-12)
+    middle = -(u * du + w * dw) / a
+    aside = u * dw - w * du
+    lowest = aside * aside / a
+    inner = shape[2]
+    path = over_level(1.0, lowest, a, middle, t0, t1) - over_level(inner, lowest, a, middle, t0, t1)
+    length = np.sqrt((ray * ray).sum(axis=-1))
+    return np.where(t1 > t0, path / (1.0 - inner) * length, 0.0)
+
+
+def opacity(path: ArrayLike, extinction: float) -> FloatArray:
+    """What a veil covers, 0 to 1: the light that does not get through."""
+    return -np.expm1(-np.asarray(path, np.float64) * extinction)
+
+
+def scene_depth(value: ArrayLike, projection: NDArray) -> FloatArray:
+    """Depth t (m along the forward axis) of a depth buffer's values in [0, 1]; 1 is infinitely far.
+
+    From the projection's own third row, so that the far plane is where it has it.
+    """
+    stored = np.asarray(value, np.float64)
+    with np.errstate(divide="ignore"):
+        t = projection[2, 3] / (stored * 2.0 - 1.0 + projection[2, 2])
+    return np.where(stored >= 1.0, math.inf, t)
