@@ -94,14 +94,18 @@ def test_terminal_motion_and_drift_with_the_wind() -> None:
     first = place(AREA, (0.0, 1.7, 0.0), 0.0, math.radians(45), SIZE)
     zero = np.zeros((2000, 3), np.float32)
     s = make(first, first, 1, fresh=0, wind=(5.0, 0.0, -2.0))
-    _, v = rain_step.step(record, zero, zero, s)
+    p, v = rain_step.step(record, zero, zero, s)
     fall = terminal_speed(diameter_quantile(record[:, 3], 25.0))
     assert np.allclose(v[:, 1], -fall, atol=1e-4)
     assert np.allclose(v[:, 0], 5.0) and np.allclose(v[:, 2], -2.0)
     # Small drops take up a change of wind sooner than large ones.
     gust = make(first, first, 2, dt=0.1, wind=(15.0, 0.0, -2.0), fresh=2000)
-    _, after = rain_step.step(record, zero + [0, 5, 0], v, gust)
-    order = np.argsort(record[:, 3])
+    moved, after = rain_step.step(record, p, v, gust)
+    # A drop that began anew moves with the new wind already.
+    kept = np.hypot(*(moved - p)[:, [0, 2]].T) < 2.0
+    kept &= (moved[:, 1] < p[:, 1]) & (after[:, 0] < 14.99)
+    assert kept.mean() > 0.8
+    order = np.flatnonzero(kept)[np.argsort(record[kept, 3])]
     assert (np.diff(after[order, 0]) <= 1e-5).all()
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -9,57 +11,52 @@ from numpy.typing import NDArray
 # Position and velocity, float32.
 STATE_BYTES = 24
 BIRTH_BYTES = 16
-STATE_NAMES = ("in_position", "in_velocity")
 
 
 class DropSet:
-    """Buffers and vertex arrays of `capacity` drops; 64 bytes a drop with feedback, 40 without."""
+    """Buffers and vertex arrays of `capacity` drops; 64 bytes a drop with feedback, 40 without.
+
+    `programs` are those that read the drops as vertices, by name; each gets its vertex arrays.
+    With `two_sided`, the state is double, for transform feedback from one side to the other.
+    """
 
     def __init__(
         self,
         ctx: moderngl.Context,
         births: NDArray[np.float32],
-        draw_programs: tuple[moderngl.Program, moderngl.Program],
-        feedback_program: moderngl.Program | None,
+        programs: Mapping[str, moderngl.Program],
+        two_sided: bool,
     ) -> None:
         self.capacity = len(births)
         self.births = ctx.buffer(np.ascontiguousarray(births, np.float32))
-        sides = 2 if feedback_program is not None else 1
-        self.states = [ctx.buffer(reserve=self.capacity * STATE_BYTES) for _ in range(sides)]
+        self.states = [
+            ctx.buffer(reserve=self.capacity * STATE_BYTES) for _ in range(2 if two_sided else 1)
+        ]
         self.current = 0
         self.last_used = 0
         # What the drops were placed by at their last step; None: not placed yet.
         self.placed: tuple[tuple[float, ...], tuple[float, ...]] | None = None
         self.steps = 0
         self.alive = 0  # drops that the last step moved
-        # One for each of the programs (in the open, with shelter) and each side.
-        self.draw_arrays = [
-            self._array(ctx, program, state) for program in draw_programs for state in self.states
-        ]
-        self.step_arrays = (
-            [self._array(ctx, feedback_program, state) for state in self.states]
-            if feedback_program is not None
-            else []
-        )
+        self._arrays = {
+            name: [self._array(ctx, program, state) for state in self.states]
+            for name, program in programs.items()
+        }
 
     def _array(
         self, ctx: moderngl.Context, program: moderngl.Program, state: moderngl.Buffer
     ) -> moderngl.VertexArray:
         # A shader may leave an attribute unused; the compiler then drops it.
-        names = [name if name in program else "" for name in STATE_NAMES]
-        layout = " ".join(
-            part if name else "12x" for part, name in zip(("3f", "3f"), names, strict=True)
-        )
-        return ctx.vertex_array(
-            program,
-            [
-                (state, layout, *[name for name in names if name]),
-                (self.births, "4f", "in_birth"),
-            ],
-        )
+        names = [name if name in program else "" for name in ("in_position", "in_velocity")]
+        layout = " ".join("3f" if name else "12x" for name in names)
+        content = [(state, layout, *[name for name in names if name])]
+        if "in_birth" in program:
+            content.append((self.births, "4f", "in_birth"))
+        return ctx.vertex_array(program, content)
 
-    def draw_array(self, sheltered: bool) -> moderngl.VertexArray:
-        return self.draw_arrays[len(self.states) * sheltered + self.current]
+    def array(self, name: str) -> moderngl.VertexArray:
+        """The vertex array of a program over the drops as they are now."""
+        return self._arrays[name][self.current]
 
     @property
     def bytes_per_drop(self) -> int:
@@ -67,31 +64,10 @@ class DropSet:
 
     def release(self) -> None:
         """Give every buffer back, in reverse order; twice does no harm."""
-        for array in (*self.step_arrays, *self.draw_arrays):
-            array.release()
+        for arrays in reversed(self._arrays.values()):
+            for array in arrays:
+                array.release()
         for buffer in (*self.states, self.births):
             buffer.release()
-        self.step_arrays, self.draw_arrays, self.states = [], [], []
-
-
-def fill_step(
-    record: NDArray,
-    drops: DropSet,
-    axis: tuple[float, ...],
-    shape: tuple[float, ...],
-    wind: tuple[float, float, float],
-    dt: float,
-    law: tuple[float, ...],
-    count: int,
-    seed: int,
-) -> None:
-    """Write one step of `drops` into a record of the block RainStep."""
-    before = drops.placed
-    record["from_axis"], record["from_shape"] = before if before is not None else (axis, shape)
-    record["to_axis"], record["to_shape"] = axis, shape
-    record["rain_wind"] = (*wind, dt)
-    record["rain_law"] = law
-    record["rain_seed"] = seed & 0xFFFFFFFF
-    record["rain_count"] = count
-    record["rain_fresh"] = 0 if before is None else drops.alive
-
+        self._arrays = {}
+        self.states = []

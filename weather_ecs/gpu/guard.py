@@ -37,6 +37,7 @@ class StateGuard:
         self._window = ctx.detect_framebuffer(0)
         self._scope: Any = self._make_scope()
         self._framebuffer = self._window
+        self._detected: dict[int, moderngl.Framebuffer] = {}
         self._host: tuple[Any, ...] = ()
 
     def _make_state(self) -> SavedState:
@@ -63,7 +64,10 @@ class StateGuard:
 
     @property
     def framebuffer(self) -> moderngl.Framebuffer:
-        """What the host had bound. To draw to it call `bind_framebuffer`, not its `use`."""
+        """What the host had bound. To draw to it call `bind_framebuffer`, not its `use`.
+
+        Its size may be out of date: the window's after a resize, another's after it was remade.
+        """
         return self._framebuffer
 
     @property
@@ -162,14 +166,18 @@ class StateGuard:
         fbo = ctx.fbo
         if fbo is not None and fbo.glo == name and fbo.mglo is ctx.mglo.fbo:
             return fbo  # type: ignore[no-any-return]
-        found = ctx.detect_framebuffer(name)
-        # moderngl asks for the size of any attachment as if it were a plain 2D texture.
-        while self.gl.error():
-            pass
-        return found  # type: ignore[no-any-return]
+        # moderngl never frees what it has detected, so each name is asked for once.
+        found = self._detected.get(name)
+        if found is None:
+            found = self._detected[name] = ctx.detect_framebuffer(name)
+            # moderngl asks for the size of any attachment as if it were a plain 2D texture.
+            while self.gl.error():
+                pass
+        return found
 
     def release(self) -> None:
         """Give the guard's moderngl object back; twice does no harm."""
         if self._scope is not None:
             self._scope.release()
             self._scope = None
+            self._detected.clear()

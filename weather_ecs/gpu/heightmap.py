@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.frame import OccluderData
 from weather_ecs.gpu import gl_enums as e
+from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.occluder_meshes import OccluderMeshes
 
@@ -175,12 +176,14 @@ class Heightmap:
                 self._broken.add(occluder.key)
                 _log.exception("occluder %r failed and is left out", occluder.draw)
 
-    @property
-    def bias(self) -> float:
-        """Depth by which a drop may lie under the surface: a texel's height on a 45 degree slope."""
+    def fill(self, block: BlockBuffer) -> None:
+        """Write what shaders need of this map into a block `Shelter`."""
         assert self.footprint is not None
-        texel = 2.0 * self.footprint.half / self.size
-        return max(texel, 0.1) / (self.footprint.top - self.footprint.bottom)
+        place = self.footprint
+        block["shelter_matrix"] = place.matrix()
+        span, texel = place.top - place.bottom, 2.0 * place.half / self.size
+        block.data["shelter_size"] = (self.size, span, texel, 0.0)
+        block.data["shelter_fall"] = (*place.slope, 0.0, 0.0)
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""

@@ -18,6 +18,8 @@ RAIN_STEP = UniformBlock(
     ("rain_seed", "uint"),
     ("rain_count", "uint"),
     ("rain_fresh", "uint"),  # drops from here on begin anew
+    ("rain_time", "float"),  # s, the weather's clock at the end of the step
+    ("impact_capacity", "uint"),  # of the list of impacts; 0: there is none
 )
 
 # The camera and the light, the same for all that is drawn in one view.
@@ -30,6 +32,7 @@ RAIN_VIEW = UniformBlock(
     ("view_size", "vec4"),  # pixels, width and height; depth of the near and far plane
     ("view_origin", "vec4"),  # pixels, lower left corner of the viewport
     ("view_depth", "vec4"),  # depth = y / (ndc + x)
+    ("view_time", "vec4"),  # s, the weather's clock; s, of it since the last view
     ("sun_direction", "vec4"),
     ("sun_color", "vec4"),
     ("drop_color", "vec4"),  # what a drop shows of the sky, linear
@@ -64,5 +67,6 @@ VEIL = UniformBlock(
 SHELTER = UniformBlock(
     "Shelter",
     ("shelter_matrix", "mat4"),  # world to (u, v, depth) in [0, 1]
-    ("shelter_bias", "vec4"),  # in units of that depth
+    ("shelter_size", "vec4"),  # texels on a side, height span in m, a texel in m
+    ("shelter_fall", "vec4"),  # horizontal m per m of fall, x and z
 )

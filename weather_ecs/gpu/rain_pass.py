@@ -1,151 +1,212 @@
-"""The two passes of the rain: move the drops, then draw their streaks."""
+"""The passes of the rain: move the drops, draw their streaks, draw the splashes of their impacts."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import moderngl
 
 from weather_ecs.frame import ContainerData, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
-from weather_ecs.gpu.drop_set import DropSet, fill_step
+from weather_ecs.gpu.drop_set import DropSet
+from weather_ecs.gpu.impact_list import ImpactList
 from weather_ecs.gpu.rain_blocks import RAIN_DRAW, RAIN_STEP
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 
 GROUP = 128  # drops in a work group; also in rain_step.comp
+SHELTER_UNIT = 1
 # A set that no view has used for so many draws is given back.
 _KEPT_DRAWS = 600
 # The last tenth of the drops in use fades in; also in systems/rain_view.py.
 _COUNT_FADE = 0.1
 
 DRAW = ProgramKey(vertex="streak.vert", geometry="streak.geom", fragment="streak.frag")
-SHELTERED = replace(DRAW, defines=("SHELTER",))
-SHELTER_UNIT = 1
 COMPUTE = ProgramKey(compute="rain_step.comp")
 FEEDBACK = ProgramKey(vertex="rain_step.vert", varyings=("out_position", "out_velocity"))
 
 
-def drops_used(container: ContainerData, drops: DropSet) -> int:
-    return min(int(container.count) + 1, drops.capacity)
+@dataclass(slots=True)
+class _Observed:
+    """What one observer's rain keeps on the GPU."""
+
+    sets: dict[int, DropSet]
+    impacts: ImpactList | None
 
 
 class RainPass:
     """Keeps one `DropSet` per container and observer; `backend` is "compute" or "feedback"."""
 
     def __init__(
-        self, ctx: moderngl.Context, shaders: ShaderLoader, *, backend: str, seed: int
+        self,
+        ctx: moderngl.Context,
+        shaders: ShaderLoader,
+        *,
+        backend: str,
+        seed: int,
+        impact_capacity: int = 4096,
     ) -> None:
         self._ctx = ctx
         self._seed = seed
-        self._sets: dict[tuple[int, int], DropSet] = {}
+        self._capacity = impact_capacity
+        self._observed: dict[int, _Observed] = {}
         self._draws = 0
-        self._open = shaders.program(DRAW)
-        self._sheltered = shaders.program(SHELTERED)
-        self._sheltered["shelter_map"] = SHELTER_UNIT
-        self._kernel = shaders.program(COMPUTE) if backend == "compute" else None
-        self._feedback = shaders.program(FEEDBACK) if backend == "feedback" else None
+        self._lists = backend == "compute"
+        key = COMPUTE if backend == "compute" else FEEDBACK
+        # Without and with a collision heightmap.
+        self._steps = [shaders.program(key), shaders.program(replace(key, defines=("SHELTER",)))]
+        self._steps[1]["shelter_map"] = SHELTER_UNIT
+        self._programs = {"streak": shaders.program(DRAW)}
+        if backend == "feedback":
+            self._programs |= {"step": self._steps[0], "sheltered step": self._steps[1]}
         self._step_block = BlockBuffer(ctx, RAIN_STEP)
         self._draw_block = BlockBuffer(ctx, RAIN_DRAW)
 
-    def sets(self) -> dict[tuple[int, int], DropSet]:
-        """The drops by (observer, container); for tests and statistics."""
-        return self._sets
+    def add_reader(self, name: str, program: moderngl.Program) -> None:
+        """A program that reads drops as vertices; before the first update."""
+        self._programs[name] = program
 
-    def update(self, view: ViewData) -> int:
-        """Moves the drops of every container in `view`; returns how many."""
+    @property
+    def has_lists(self) -> bool:
+        """Whether impacts are listed (compute) or kept by the drops themselves (feedback)."""
+        return self._lists
+
+    def sets(self, observer: int = 0) -> dict[int, DropSet]:
+        """An observer's drops by container; for other passes, tests and statistics."""
+        seen = self._observed.get(observer)
+        return seen.sets if seen is not None else {}
+
+    def impacts(self, observer: int = 0) -> ImpactList | None:
+        """An observer's impacts; None with feedback, where each drop keeps its own."""
+        seen = self._observed.get(observer)
+        return seen.impacts if seen is not None else None
+
+    def update(self, view: ViewData, sheltered: bool = False) -> int:
+        """Moves the drops of every container in `view`; returns how many.
+
+        With `sheltered`, what they meet is in the collision heightmap at SHELTER_UNIT.
+        """
         self._draws += 1
         moved = 0
+        seen = self._observed.get(view.key)
+        if seen is None:
+            impacts = ImpactList(self._ctx, self._capacity) if self._lists else None
+            seen = self._observed[view.key] = _Observed({}, impacts)
+        if seen.impacts is not None and sheltered:
+            seen.impacts.begin_frame()
         self._step_block.bind()
+        self._draw_block.bind()
         for container in view.containers:
-            drops = self._drops(view.key, container)
+            drops = self._drops(seen, container)
             drops.last_used = self._draws
             placing = (container.axis, container.shape)
             if view.dt <= 0.0 and drops.placed == placing:
                 continue
-            moved += self._move(drops, container, view)
+            self.fill_container(container, view)
+            moved += self._move(drops, container, view, seen.impacts, sheltered)
             drops.placed = placing
         self._forget()
         return moved
 
-    def _move(self, drops: DropSet, container: ContainerData, view: ViewData) -> int:
+    def _move(
+        self,
+        drops: DropSet,
+        container: ContainerData,
+        view: ViewData,
+        impacts: ImpactList | None,
+        sheltered: bool,
+    ) -> int:
         count = drops_used(container, drops)
         drops.steps += 1
-        fill_step(
-            self._step_block.data,
-            drops,
-            container.axis,
-            container.shape,
-            view.frame.wind,
-            view.dt,
-            container.law,
-            count,
-            self._seed * 0x9E3779B1 + container.key * 0x85EBCA6B + drops.steps,
-        )
+        before = drops.placed if drops.placed is not None else (container.axis, container.shape)
+        data = self._step_block.data
+        data["from_axis"], data["from_shape"] = before
+        data["to_axis"], data["to_shape"] = container.axis, container.shape
+        data["rain_wind"] = (*view.frame.wind, view.dt)
+        data["rain_law"] = container.law
+        seed = self._seed * 0x9E3779B1 + container.key * 0x85EBCA6B + drops.steps
+        data["rain_seed"] = seed & 0xFFFFFFFF
+        data["rain_count"] = count
+        data["rain_fresh"] = 0 if drops.placed is None else drops.alive
+        data["rain_time"] = view.frame.time
+        data["impact_capacity"] = self._capacity
         self._step_block.upload()
-        if self._kernel is not None:
+        if self._lists:
             drops.births.bind_to_storage_buffer(0)
             drops.states[0].bind_to_storage_buffer(1)
-            self._kernel.run((count + GROUP - 1) // GROUP)
+            if impacts is not None:
+                impacts.bind()
+            kernel = self._steps[sheltered]
+            kernel.run((count + GROUP - 1) // GROUP)  # type: ignore[attr-defined]
             self._ctx.memory_barrier(
                 moderngl.VERTEX_ATTRIB_ARRAY_BARRIER_BIT | moderngl.SHADER_STORAGE_BARRIER_BIT
             )
         else:
             following = 1 - drops.current
-            drops.step_arrays[drops.current].transform(
+            drops.array("sheltered step" if sheltered else "step").transform(
                 drops.states[following], moderngl.POINTS, vertices=count
             )
             drops.current = following
         drops.alive = count
         return count
 
-    def draw(self, view: ViewData, sheltered: bool = False) -> int:
-        """Draws the streaks into the bound framebuffer; returns how many drops were offered.
-
-        With `sheltered`, the collision heightmap at SHELTER_UNIT hides what lies below it.
-        """
-        look = view.frame.look
-        offered = 0
+    def draw(self, view: ViewData) -> None:
+        """Draws the streaks into the bound framebuffer."""
         self._draw_block.bind()
+        seen = self._observed[view.key]
         for container in view.containers:
-            drops = self._sets[view.key, container.key]
-            data = self._draw_block.data
-            data["container_axis"], data["container_shape"] = container.axis, container.shape
-            data["area_axis"], data["area_shape"] = container.area_axis, container.area_shape
-            data["drop_law"] = container.law
-            fade = 1.0 / max(_COUNT_FADE * container.count, 1.0)
-            data["drop_load"] = (container.load, container.count, fade, 0.0)
-            data["drop_look"] = (
-                look.size_maximum, container.size_scale, look.width, look.opacity,
-            )  # fmt: skip
-            self._draw_block.upload()
+            drops = seen.sets[container.key]
+            self.fill_container(container, view)
             count = min(drops_used(container, drops), drops.alive)
-            drops.draw_array(sheltered).render(moderngl.POINTS, vertices=count)
-            offered += count
-        return offered
+            drops.array("streak").render(moderngl.POINTS, vertices=count)
 
-    def _drops(self, observer: int, container: ContainerData) -> DropSet:
-        key = (observer, container.key)
-        drops = self._sets.get(key)
+    def fill_container(self, container: ContainerData, view: ViewData) -> None:
+        """Upload the block RainDraw of one container."""
+        look = view.frame.look
+        data = self._draw_block.data
+        data["container_axis"], data["container_shape"] = container.axis, container.shape
+        data["area_axis"], data["area_shape"] = container.area_axis, container.area_shape
+        data["drop_law"] = container.law
+        fade = 1.0 / max(_COUNT_FADE * container.count, 1.0)
+        data["drop_load"] = (container.load, container.count, fade, 0.0)
+        data["drop_look"] = (
+            look.size_maximum, container.size_scale, look.width, look.opacity,
+        )  # fmt: skip
+        self._draw_block.upload()
+
+    def _drops(self, seen: _Observed, container: ContainerData) -> DropSet:
+        drops = seen.sets.get(container.key)
         if drops is not None and drops.capacity != len(container.births):
             drops.release()
             drops = None
         if drops is None:
-            drops = DropSet(
-                self._ctx, container.births, (self._open, self._sheltered), self._feedback
-            )
-            self._sets[key] = drops
+            drops = DropSet(self._ctx, container.births, self._programs, not self._lists)
+            seen.sets[container.key] = drops
         return drops
 
     def _forget(self) -> None:
         if self._draws % 60:
             return
-        for key in [k for k, d in self._sets.items() if d.last_used < self._draws - _KEPT_DRAWS]:
-            self._sets.pop(key).release()
+        oldest = self._draws - _KEPT_DRAWS
+        for observer, seen in list(self._observed.items()):
+            for key in [k for k, drops in seen.sets.items() if drops.last_used < oldest]:
+                seen.sets.pop(key).release()
+            if not seen.sets:
+                if seen.impacts is not None:
+                    seen.impacts.release()
+                del self._observed[observer]
 
     def release(self) -> None:
         """Give every buffer back; twice does no harm."""
-        for drops in self._sets.values():
-            drops.release()
-        self._sets.clear()
+        for seen in self._observed.values():
+            for drops in seen.sets.values():
+                drops.release()
+            if seen.impacts is not None:
+                seen.impacts.release()
+        self._observed.clear()
         self._draw_block.release()
         self._step_block.release()
+
+
+def drops_used(container: ContainerData, drops: DropSet) -> int:
+    """Drops of a set that are in use, the last one fading."""
+    return min(int(container.count) + 1, drops.capacity)

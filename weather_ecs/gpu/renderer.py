@@ -17,15 +17,13 @@ from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.heightmap import Heightmap, fall_speed_of
 from weather_ecs.gpu.occluder_meshes import OccluderMeshes
 from weather_ecs.gpu.rain_blocks import RAIN_VIEW, SHELTER
-from weather_ecs.gpu.rain_pass import RainPass
+from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass
 from weather_ecs.gpu.shader_loader import ShaderLoader
 from weather_ecs.gpu.timer import GpuTimer, PrimitiveCounter
 from weather_ecs.gpu.veil_pass import VeilPass
 from weather_ecs.gpu.view_block import fill_view
 
 _log = logging.getLogger("weather_ecs")
-
-SHELTER_UNIT = 1
 
 
 class Settings(Protocol):
@@ -101,10 +99,10 @@ class Renderer:
             self._view_block.upload()
             self._view_block.bind()
             sheltered = self._capture(view, settings)
-            self.stats["drops_moved"] = self._rain.update(view)
+            self.stats["drops_moved"] = self._rain.update(view, sheltered)
             guard.bind_framebuffer()
             self._draw_veils(view)
-            self._draw_drops(view, sheltered)
+            self._draw_drops(view)
             self._timer.end()
 
     def _capture(self, view: ViewData, settings: Settings) -> bool:
@@ -123,9 +121,7 @@ class Renderer:
         wind, reach = view.frame.wind, view.frame.look.reach
         if heightmap.capture(occluders, view.position, reach, wind, fall_speed_of(rate)):
             self._meshes.keep(occluders)
-        assert heightmap.footprint is not None
-        self._shelter_block["shelter_matrix"] = heightmap.footprint.matrix()
-        self._shelter_block.data["shelter_bias"][0] = heightmap.bias
+        heightmap.fill(self._shelter_block)
         self._shelter_block.upload()
         self._shelter_block.bind()
         heightmap.texture.use(SHELTER_UNIT)
@@ -145,13 +141,13 @@ class Renderer:
         self._veil.draw(view, depth)
         ctx.cull_face = "back"
 
-    def _draw_drops(self, view: ViewData, sheltered: bool) -> None:
+    def _draw_drops(self, view: ViewData) -> None:
         if not view.containers:
             return
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
         self._counter.begin()
-        self._rain.draw(view, sheltered)
+        self._rain.draw(view)
         self._counter.end()
 
     def release(self) -> None:

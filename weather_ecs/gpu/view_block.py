@@ -46,6 +46,7 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     data["view_size"] = (width, height, 0.0, 0.0)
     data["view_origin"] = (x, y, 0.0, 0.0)
     data["view_depth"] = (float(p[2, 2]), float(p[2, 3]), 0.0, 0.0)
+    data["view_time"] = (view.frame.time, view.dt, 0.0, 0.0)
     data["sun_direction"] = (*sky.sun_direction, 0.0)
     data["sun_color"] = (*sky.sun_color, 0.0)
     data["drop_color"][:3] = drop_light(sky)

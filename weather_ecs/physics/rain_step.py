@@ -13,6 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .container import Container
+from .shelter import ShelterMap
+
+# As in shaders/landed.glsl.
+LANDED = 8192.0
+NO_IMPACT = 1e9
 
 F = np.float32
 U = np.uint32
@@ -156,32 +161,79 @@ def _carry(
 
 
 def step(
-    birth: NDArray[np.float32], p: NDArray[np.float32], v: NDArray[np.float32], s: Step
+    birth: NDArray[np.float32],
+    p: NDArray[np.float32],
+    v: NDArray[np.float32],
+    s: Step,
+    shelter: ShelterMap | None = None,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Positions and velocities after one step, each (n, 3) float32."""
+    """Positions and velocities after one step, each (n, 3) float32.
+
+    A drop that has met the surface of `shelter` has, for its velocity, the place of the hit, with
+    LANDED added to the height; NO_IMPACT for its height where it came in under cover.
+    """
     ids = np.arange(len(birth), dtype=U)
     own = birth[:, 2]
     fall = fall_speeds(diameters(birth[:, 3], s.law))
     drift = np.tile(np.asarray(s.wind[:3], F), (len(birth), 1))
     drift[:, 1] -= fall
-    p, v = p.copy(), v.copy()
+    begins = ids >= s.fresh
+    landed = ~begins & (v[:, 1] > 1024.0)
+    motion = np.where((landed | begins)[:, None], drift, v)
+    before, held = p, v
+    p = p.copy()
+    dt = F(s.wind[3])
+    gain = F(1.0) - np.exp(-dt * F(9.8) / np.maximum(fall, F(0.1)))
+    motion = motion + (drift - motion) * gain[:, None]
+    p += motion * dt
+    elsewhere = _keep_in_container(birth, ids, motion[:, [0, 2]] * dt, p, s)
     first = np.empty_like(p)
     first[:, [0, 2]] = from_container(birth[:, :2], s.to_axis, s.to_shape)
     first[:, 1] = F(s.to_shape[2]) + F(s.to_shape[3]) * hash_unit(ids * U(2) + U(1))
-    dt = F(s.wind[3])
-    v += (drift - v) * (F(1.0) - np.exp(-dt * F(9.8) / np.maximum(fall, F(0.1))))[:, None]
-    p += v * dt
+    p = np.where(begins[:, None], first, p)
+    elsewhere |= begins
+    landed &= ~elsewhere
+    motion = np.where(elsewhere[:, None], drift, motion)
+    v = np.where(landed[:, None], held, motion)
+    if shelter is not None:
+        v = _land(shelter, before, p, v, landed, elsewhere)
+    return p.astype(F), v.astype(F)
+
+
+def _land(
+    shelter: ShelterMap,
+    before: NDArray,
+    p: NDArray,
+    v: NDArray,
+    landed: NDArray,
+    elsewhere: NDArray,
+) -> NDArray:
+    """Velocities, with the place of the hit where a drop has met the surface."""
+    m, m0 = shelter.places(p), shelter.places(before)
+    lands = ~landed & shelter.knows(m) & (shelter.below_texel(m) > 0.0)
+    was_above = ~elsewhere & shelter.knows(m0) & (shelter.below_texel(m0) <= 0.0)
+    hit, true = shelter.meets(before, p)
+    hits = lands & was_above & true
+    kept = np.stack([p[:, 0], np.full(len(p), NO_IMPACT, F), p[:, 2]], axis=1)
+    kept = np.where(hits[:, None], hit + F([0.0, LANDED, 0.0]), kept)
+    return np.where(lands[:, None], kept, v)
+
+
+def _keep_in_container(
+    birth: NDArray, ids: NDArray[np.uint32], drift: NDArray, p: NDArray, s: Step
+) -> NDArray[np.bool_]:
+    """Keeps drops that have moved by `drift` to their container, in place; which are elsewhere."""
+    own = birth[:, 2]
+    elsewhere = np.zeros(len(p), bool)
     if s.from_shape[:2] != s.to_shape[:2]:
         q = to_container(p[:, [0, 2]], s.from_axis, s.from_shape)
         p[:, [0, 2]] = from_container(q, s.from_axis, s.to_shape)
-
     fresh = from_container(resettle(ids, own, s.seed), s.to_axis, s.to_shape)
     out = np.flatnonzero(~in_half_disc(to_container(p[:, [0, 2]], s.to_axis, s.to_shape), own))
     if len(out):
-        drift_by = v[out][:, [0, 2]] * dt
-        places = _carry(p[out][:, [0, 2]], drift_by, own[out], fresh[out], s)
+        places = _carry(p[out][:, [0, 2]], drift[out], own[out], fresh[out], s)
         p[out, 0], p[out, 2] = places[:, 0], places[:, 1]
-
+        elsewhere[out] = True
     bottom, height = F(s.to_shape[2]), F(s.to_shape[3])
     if s.from_shape[3] != s.to_shape[3]:
         p[:, 1] = bottom + (p[:, 1] - F(s.from_shape[2])) * (height / F(s.from_shape[3]))
@@ -189,5 +241,4 @@ def step(
     p[:, 1] -= turns * height
     again = (turns < 0.0)[:, None]
     p[:, [0, 2]] = np.where(again, fresh, p[:, [0, 2]])
-    begins = (ids >= s.fresh)[:, None]
-    return np.where(begins, first, p), np.where(begins, drift, v)
+    return elsewhere | (turns != 0.0)

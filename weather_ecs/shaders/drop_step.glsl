@@ -11,8 +11,12 @@
 // Eq. 2 holds at every moment and not only for an observer at rest.
 #include "hash.glsl"
 #include "drop_law.glsl"
-#include "container.glsl"
+#include "drop_weight.glsl"
+#include "landed.glsl"
 #include <block:RainStep>
+#ifdef SHELTER
+#include "shelter.glsl"
+#endif
 
 vec2 resettle(uint id, float s)
 {
@@ -64,22 +68,10 @@ bool follow(inout vec2 at, vec2 drift, float s)
     return true;
 }
 
-void step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
+// Keeps a drop that has moved by `drift` to its container; true where it is now elsewhere.
+bool keep_in_container(uint id, float s, vec2 drift, inout vec3 p)
 {
-    float s = birth.z;
-    float fall = drop_speed(drop_diameter(birth.w, rain_law));
-    vec3 drift = vec3(rain_wind.x, rain_wind.y - fall, rain_wind.z);
-    if (id >= rain_fresh) {
-        p.xz = from_container(birth.xy, to_axis, to_shape.xy);
-        p.y = to_shape.z + to_shape.w * hash_unit(id * 2u + 1u);
-        v = drift;
-        return;
-    }
-    float dt = rain_wind.w;
-    // Drag brings a drop to the air's own motion with the time constant of its terminal speed.
-    v += (drift - v) * (1.0 - exp(-dt * 9.8 / max(fall, 0.1)));
-    p += v * dt;
-
+    bool elsewhere = false;
     // The size has changed: the container's own axes keep the drop's place.
     if (from_shape.xy != to_shape.xy)
         p.xz = from_container(to_container(p.xz, from_axis, from_shape.xy), from_axis, to_shape.xy);
@@ -90,11 +82,11 @@ void step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
         vec2 at = p.xz;
         bool arrived = false;
         for (int i = 0; i < 4 && !arrived; ++i) {
-            if (!follow(at, v.xz * dt, s)) break;
-            vec2 before = to_container(at - v.xz * dt, from_axis, to_shape.xy);
-            arrived = !in_half_disc(before, s);
+            if (!follow(at, drift, s)) break;
+            arrived = !in_half_disc(to_container(at - drift, from_axis, to_shape.xy), s);
         }
         p.xz = arrived ? at : from_container(resettle(id, s), to_axis, to_shape.xy);
+        elsewhere = true;
     }
     // It has risen, sunk or grown; or the drop has reached the bottom, and another begins.
     if (from_shape.w != to_shape.w)
@@ -103,5 +95,70 @@ void step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
     if (turns != 0.0) {
         p.y -= turns * to_shape.w;
         if (turns < 0.0) p.xz = from_container(resettle(id, s), to_axis, to_shape.xy);
+        elsewhere = true;
     }
+    return elsewhere;
+}
+
+#ifdef SHELTER
+// Where the way from a to b meets the surface: true for a hit, which is exact and not the step's
+// end. A way that crosses an edge of the map far below the surface beside it has come in from the
+// side, under an overhang: that is no hit.
+bool meets(vec3 a, vec3 b, out vec3 hit)
+{
+    float low = 0.0;
+    float high = 1.0;
+    for (int i = 0; i < 12; ++i) {
+        float middle = 0.5 * (low + high);
+        if (below_surface(shelter_place(mix(a, b, middle))) > 0.0) high = middle;
+        else low = middle;
+    }
+    hit = mix(a, b, high);
+    return below_surface(shelter_place(hit)) < 0.25;
+}
+#endif
+
+// True where the drop has hit something in this step; v is then the hit, see landed.glsl.
+bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
+{
+    float s = birth.z;
+    float fall = drop_speed(drop_diameter(birth.w, rain_law));
+    vec3 drift = vec3(rain_wind.x, rain_wind.y - fall, rain_wind.z);
+    bool elsewhere = id >= rain_fresh;
+    bool landed = !elsewhere && has_landed(v);
+    vec3 motion = landed || elsewhere ? drift : v;
+    vec3 before = p;
+    if (elsewhere) {
+        p.xz = from_container(birth.xy, to_axis, to_shape.xy);
+        p.y = to_shape.z + to_shape.w * hash_unit(id * 2u + 1u);
+    } else {
+        float dt = rain_wind.w;
+        // Drag brings a drop to the air's own motion with the time constant of its terminal speed.
+        motion += (drift - motion) * (1.0 - exp(-dt * 9.8 / max(fall, 0.1)));
+        p += motion * dt;
+        elsewhere = keep_in_container(id, s, motion.xz * dt, p);
+    }
+    if (elsewhere) {
+        landed = false;
+        motion = drift;
+    }
+    bool hits = false;
+    vec3 hit = vec3(0.0);
+#ifdef SHELTER
+    vec3 m = shelter_place(p);
+    if (!landed && in_shelter_map(m) && below_texel(m) > 0.0) {
+        landed = true;
+        hit = vec3(p.x, NO_IMPACT, p.z);
+        vec3 m0 = shelter_place(before);
+        if (!elsewhere && in_shelter_map(m0) && below_texel(m0) <= 0.0) {
+            vec3 at;
+            hits = meets(before, p, at);
+            if (hits) hit = vec3(at.x, at.y + LANDED, at.z);
+        }
+        v = hit;
+        return hits;
+    }
+#endif
+    if (!landed) v = motion;
+    return hits;
 }

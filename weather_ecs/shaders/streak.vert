@@ -1,14 +1,10 @@
 // What one drop looks like: its streak's two ends, width and opacity; the drop stands for `weight`
 // real ones, and its area times its opacity is their cross-section.
 #include "drop_law.glsl"
-#include "container.glsl"
-#include "rain_area.glsl"
+#include "drop_weight.glsl"
+#include "landed.glsl"
 #include "encode.glsl"
 #include <block:RainView>
-#include <block:RainDraw>
-#ifdef SHELTER
-#include "shelter.glsl"
-#endif
 
 in vec3 in_position;
 in vec3 in_velocity;
@@ -24,6 +20,7 @@ void main()
     vs_width = 0.0;
     vs_tail = vs_head = vs_color = vec4(0.0);
     gl_Position = vec4(0.0);
+    if (has_landed(in_velocity)) return;
     vec3 p = in_position;
     vec3 path = (in_velocity - camera_velocity.xyz) * camera_velocity.w;
     vec4 head = view_projection * vec4(p, 1.0);
@@ -33,20 +30,11 @@ void main()
     vec2 t = tail.xy / tail.w;
     if (any(greaterThan(min(h, t), vec2(1.02))) || any(lessThan(max(h, t), vec2(-1.02)))) return;
 
-    float there = area_factor(p.xz, area_axis, area_shape);
-    vec2 q = to_container(p.xz, container_axis, container_shape.xy);
-    float d = length(q);
-    float rim = clamp((1.0 - d / in_birth.z) * 4.0, 0.0, 1.0);
-    if (there * rim <= 0.0) return;
-#ifdef SHELTER
-    if (sheltered(p)) return;
-#endif
+    float d;
+    float weight = drop_weight(p, in_birth.z, gl_VertexID, d);
+    if (weight <= 0.0) return;
     float rise = (p.y - container_shape.z) / container_shape.w;
-    float ends = clamp((1.0 - rise) * 8.0, 0.0, 1.0) * step(p.y, area_shape.w);
-    float last = clamp((drop_load.y - float(gl_VertexID)) * drop_load.z, 0.0, 1.0);
-    d = min(d, 0.999);
-    float shape = d < 0.75 ? 0.875 - d : 2.0 * (1.0 - d) * (1.0 - d);
-    float weight = drop_load.x * d / shape * rim * there * ends * last;
+    weight *= clamp((1.0 - rise) * 8.0, 0.0, 1.0) * step(p.y, area_shape.w);
 
     float diameter = drop_diameter(in_birth.w, drop_law) * 1e-3;
     float width = diameter * (1.0 + (drop_look.x - 1.0) * d * d) * drop_look.y * drop_look.z;

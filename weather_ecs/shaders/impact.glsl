@@ -1,0 +1,53 @@
+// What rain has hit, one vertex an impact, the same from both backends:
+//   IMPACT_LIST   the records that the compute kernel has listed
+//   otherwise     the drops themselves, each with its own last impact (feedback)
+// read_impact gives false where a vertex holds none. The program needs the block RainView; without
+// IMPACT_LIST also the block RainDraw of the container and the collision heightmap.
+#include <block:RainView>
+
+struct Impact {
+    vec3 position;   // m, on the surface
+    float age;       // s, of the weather's clock
+    vec3 normal;     // of the surface, upward
+    float diameter;  // mm
+    float speed;     // m/s
+    float weight;    // real drops that it stands for
+    float seed;      // in [0, 1)
+};
+
+#ifdef IMPACT_LIST
+in vec4 in_hit;
+in vec4 in_surface;
+in vec4 in_fall;
+
+bool read_impact(out Impact i)
+{
+    i = Impact(in_hit.xyz, view_time.x - in_hit.w, in_surface.xyz, in_surface.w,
+               in_fall.x, in_fall.y, in_fall.z);
+    return i.age >= 0.0 && i.age < 100.0;
+}
+#else
+#include "drop_law.glsl"
+#include "drop_weight.glsl"
+#include "landed.glsl"
+#include "shelter.glsl"
+
+in vec3 in_position;
+in vec3 in_velocity;
+in vec4 in_birth;
+
+bool read_impact(out Impact i)
+{
+    i = Impact(vec3(0.0), 1e9, vec3(0.0, 1.0, 0.0), 0.0, 0.0, 0.0, in_birth.w);
+    if (!has_landed(in_velocity) || in_velocity.y > 1e8) return false;
+    i.position = vec3(in_velocity.x, in_velocity.y - LANDED, in_velocity.z);
+    i.diameter = drop_diameter(in_birth.w, drop_law);
+    i.speed = drop_speed(i.diameter);
+    // The place-holder has fallen on at the drop's own speed ever since.
+    i.age = max(i.position.y - in_position.y, 0.0) / max(i.speed, 0.1);
+    float d;
+    i.weight = drop_weight(i.position, in_birth.z, gl_VertexID, d);
+    i.normal = surface_normal(shelter_place(i.position).xy);
+    return i.weight > 0.0;
+}
+#endif
