@@ -205,6 +205,17 @@ def test_drawing_goes_to_a_framebuffer_bound_without_moderngl(
     assert not pixels(known).any()
 
 
+def test_a_framebuffer_is_detected_once(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep
+) -> None:
+    target = make_target(ctx, keep, (16, 8))  # moderngl frees nothing that it detects
+    gl.glBindFramebuffer(0x8D40, target.glo)
+    with guard:
+        first = guard.framebuffer
+    with guard:
+        assert guard.framebuffer is first
+
+
 def test_a_host_that_thinks_in_moderngl_alone_goes_on(
     ctx: moderngl.Context, guard: StateGuard, keep: Keep, fill: moderngl.VertexArray
 ) -> None:
