@@ -150,5 +150,12 @@ def test_entry_points(ctx: moderngl.Context, gl: GL) -> None:
         assert (getattr(gl, name) is not None) == present, name
         assert present or optional, name
     assert gl.get_string(0x1F02)
-    assert gl.get_ints(0x0BA2, 4) == tuple(ctx.detect_framebuffer(0).viewport)
-    assert read_state(gl)["blend"] == 0
+    gl.glViewport(1, 2, 3, 4)
+    assert gl.get_ints(0x0BA2, 4) == (1, 2, 3, 4)
+    gl.glBlendColor(0.25, 0.5, 0.75, 1.0)
+    gl.glDepthRange(0.25, 0.75)
+    state = read_state(gl)
+    assert state["blend color"] == (0.25, 0.5, 0.75, 1.0)
+    assert state["depth range"] == (0.25, 0.75)
+    gl.glBlendColor(0.0, 0.0, 0.0, 0.0)
+    gl.glDepthRange(0.0, 1.0)
