@@ -9,7 +9,7 @@ import esper
 
 from demo_game.mood import Mood
 from demo_game.place import Place
-from demo_game.skies import Light
+from demo_game.skies import Light, shade
 from weather_ecs.components import Occluder, PointLight, RainArea, RainContainer, Sun, Wind
 
 CENTER = (0.0, -70.0)  # (x, z), m, of the rain area that the walk leads through
@@ -29,7 +29,7 @@ PLACE_MIDDLE = (0.0, -40.0)  # (x, z), m
 class Entities:
     """Creates the entities in esper's current world and keeps them up to date."""
 
-    def __init__(self, place: Place, mood: Mood, light: Light) -> None:
+    def __init__(self, place: Place, mood: Mood, light: Light, time: float) -> None:
         self._place = place
         self.area = RainArea(center=CENTER, radii=RADII, soft_edge=SOFT_EDGE, ceiling=CEILING)
         self.shower = RainArea(
@@ -48,14 +48,14 @@ class Entities:
             lamp = PointLight(position=position, color=color, reach=reach)
             esper.create_entity(lamp)
             self._lamps.append((lamp, color))
-        poses = place.poses(0.0)
+        poses = place.poses(time)
         self._moving: dict[str, Occluder] = {}
         for name, vertices, indices, dynamic in place.occluders():
             occluder = Occluder(vertices, indices, poses.get(name), dynamic)
             esper.create_entity(occluder)
             if dynamic:
                 self._moving[name] = occluder
-        self.update(mood, light, 0.0)
+        self.update(mood, light, time)
 
     def update(self, mood: Mood, light: Light, time: float) -> None:
         """Carry the game's state of this frame into the components."""
@@ -65,6 +65,7 @@ class Entities:
         x, z = direction(mood.wind_heading)
         if x * self._wind.direction[0] + z * self._wind.direction[1] < 1.0 - 1e-9:
             self._wind.direction = (x, z)
+        light = shade(light, mood.rain_rate)
         _assign(
             self._sun,
             color=light.sun_color,

@@ -26,8 +26,10 @@ from weather_ecs.presets import PRESETS
 
 WIND_HEADING = math.radians(-20.0)  # to the east, a little south
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
+SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings its own clouds
+SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
 START = (0.0, 70.0)  # (x, z), m, where a player begins, looking north
-CLEAR_FOG, RAIN_FOG = 0.00018, 0.0011  # 1/m under a clear and a covered sky
+CLEAR_FOG, COVERED_FOG = 0.00035, 0.0011  # 1/m under a clear and a covered sky
 
 _numbers = itertools.count(1)
 STILL = Intent()
@@ -58,7 +60,7 @@ class Game:
         self.place = place if place is not None else Place(seed)
         self.player = Player(self.place, Colliders.of(self.place.colliders))
         self.player.place_at(*START, yaw=0.0)
-        self._entities = Entities(self.place, self.mood.current, self._light())
+        self._entities = Entities(self.place, self.mood.current, self._light(), SCENE_START)
         self.scene = SceneRenderer(context, self.place, settings.quality)
         try:
             self.weather = self._make_weather()
@@ -84,7 +86,7 @@ class Game:
         self.time += dt
         self.mood.update(dt)
         self.sky.update(dt)
-        self._entities.update(self.mood.current, self._light(), self.time)
+        self._entities.update(self.mood.current, self._light(), self._scene_time)
         if self.tour is None:
             self.player.update(dt, intent)
         self.pose = self._pose()
@@ -99,7 +101,7 @@ class Game:
         view = view_matrix(self.pose)
         projection = projection_matrix(self.settings.hfov, width / height)
         framebuffer.use()
-        self.scene.draw(framebuffer, view, projection, self.time, self._environment())
+        self.scene.draw(framebuffer, view, projection, self._scene_time, self._environment())
         framebuffer.use()
         self.weather.draw(view, projection)
 
@@ -156,13 +158,17 @@ class Game:
             backend=self.settings.backend,
         )
 
+    @property
+    def _scene_time(self) -> float:
+        return SCENE_START + self.time
+
     def _pose(self) -> Pose:
         return self.player.pose() if self.tour is None else self.tour.pose(self.time)
 
     def _overcast(self) -> float:
         if self.tour is not None:  # so that the difference of two tours is the rain alone
-            return PRESETS[TOUR_SKY].overcast
-        return self.mood.current.overcast
+            return SKY_LEAST + SKY_SHARE * PRESETS[TOUR_SKY].overcast
+        return SKY_LEAST + SKY_SHARE * self.mood.current.overcast
 
     def _light(self) -> Any:
         return self.sky.light(self._overcast())
@@ -181,7 +187,7 @@ class Game:
             ground_color=light.ground_color,
             overcast=overcast,
             wetness=0.0,  # but in the rain areas, which the renderer wets itself
-            fog_density=CLEAR_FOG + overcast * (RAIN_FOG - CLEAR_FOG),
+            fog_density=CLEAR_FOG + overcast * (COVERED_FOG - CLEAR_FOG),
             fog_color=light.horizon_color,
             rain_areas=[
                 (area.center, area.radii, area.heading, rate, area.ceiling)

@@ -41,24 +41,24 @@ def _towards(azimuth: float, height: float) -> tuple[float, float, float]:
 
 TIMES = (
     TimeOfDay(
-        "afternoon", _towards(236.0, 38.0),
-        (1.00, 0.93, 0.80), (0.20, 0.36, 0.68), (0.60, 0.70, 0.80), (0.19, 0.19, 0.15), 0.35,
+        "afternoon", _towards(227.0, 25.0),
+        (1.00, 0.86, 0.66), (0.20, 0.32, 0.52), (0.62, 0.68, 0.74), (0.19, 0.18, 0.14), 0.45,
     ),
     TimeOfDay(
-        "evening", _towards(278.0, 11.0),
-        (1.00, 0.62, 0.33), (0.17, 0.25, 0.46), (0.78, 0.58, 0.44), (0.16, 0.13, 0.11), 0.8,
+        "evening", _towards(272.0, 9.0),
+        (0.95, 0.50, 0.22), (0.15, 0.20, 0.36), (0.66, 0.47, 0.36), (0.14, 0.11, 0.09), 0.85,
     ),
     TimeOfDay(
-        "dusk", _towards(296.0, 3.5),
-        (0.34, 0.22, 0.20), (0.050, 0.075, 0.155), (0.20, 0.17, 0.20), (0.045, 0.045, 0.05), 1.0,
+        "dusk", _towards(296.0, 4.0),
+        (0.10, 0.07, 0.08), (0.030, 0.045, 0.095), (0.13, 0.12, 0.15), (0.03, 0.03, 0.035), 1.0,
     ),
     TimeOfDay(
-        "morning", _towards(96.0, 17.0),
-        (1.00, 0.80, 0.58), (0.22, 0.36, 0.62), (0.74, 0.72, 0.72), (0.18, 0.17, 0.14), 0.5,
+        "morning", _towards(98.0, 14.0),
+        (0.92, 0.72, 0.50), (0.20, 0.32, 0.54), (0.66, 0.65, 0.66), (0.17, 0.16, 0.13), 0.6,
     ),
     TimeOfDay(
-        "noon", _towards(180.0, 58.0),
-        (1.05, 1.00, 0.92), (0.17, 0.36, 0.74), (0.55, 0.69, 0.85), (0.21, 0.21, 0.17), 0.15,
+        "noon", _towards(186.0, 55.0),
+        (1.00, 0.94, 0.84), (0.16, 0.32, 0.62), (0.52, 0.64, 0.78), (0.20, 0.20, 0.16), 0.3,
     ),
 )  # fmt: skip
 
@@ -81,20 +81,34 @@ def light(before: TimeOfDay, after: TimeOfDay, share: float) -> Light:
 
 
 def cover(clear: Light, overcast: float) -> Light:
-    """The same light under clouds: no sun to speak of, and a grey, darker sky."""
-    sun = 1.0 - 0.94 * overcast
+    """The same light under clouds: broken ones leave it, a closed cover makes it grey and dark."""
+    closed = min(max((overcast - 0.3) / 0.7, 0.0), 1.0)
     grey = 0.62 * (0.5 * _brightness(clear.zenith_color) + 0.5 * _brightness(clear.horizon_color))
-    zenith = (0.92 * grey, 0.98 * grey, 1.06 * grey)
-    horizon = (1.16 * grey, 1.20 * grey, 1.24 * grey)
-    ground = _mix((0.0, 0.0, 0.0), clear.ground_color, 0.7)
     return Light(
         clear.sun_direction,
-        _mix((0.0, 0.0, 0.0), clear.sun_color, sun),
-        _mix(clear.zenith_color, zenith, overcast),
-        _mix(clear.horizon_color, horizon, overcast),
-        _mix(clear.ground_color, ground, overcast),
-        clear.lamps + overcast * 0.5 * (1.0 - clear.lamps),
+        _dimmed(clear.sun_color, 1.0 - 0.94 * closed),
+        _mix(clear.zenith_color, (0.92 * grey, 0.98 * grey, 1.06 * grey), closed),
+        _mix(clear.horizon_color, (1.16 * grey, 1.20 * grey, 1.24 * grey), closed),
+        _dimmed(clear.ground_color, 1.0 - 0.3 * closed),
+        clear.lamps + closed * 0.5 * (1.0 - clear.lamps),
     )
+
+
+def shade(light: Light, rain_rate: float) -> Light:
+    """The same light below the cloud that rains so many mm/h: what falls there is lit by it."""
+    left = 1.0 - 0.45 * (1.0 - math.exp(-rain_rate / 4.0))
+    return Light(
+        light.sun_direction,
+        _dimmed(light.sun_color, left),
+        _dimmed(light.zenith_color, left),
+        _dimmed(light.horizon_color, left),
+        _dimmed(light.ground_color, left),
+        light.lamps,
+    )
+
+
+def _dimmed(color: Color, share: float) -> Color:
+    return color[0] * share, color[1] * share, color[2] * share
 
 
 def _brightness(color: Color) -> float:
