@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import logging
 from typing import TYPE_CHECKING
 
@@ -28,7 +29,7 @@ def make_window(
     """
     pyglet.options.dpi_scaling = "real"
     try:
-        from pyglet import window as windows
+        windows = importlib.import_module("pyglet.window")
     except Exception as error:  # pyglet opens the display on import; what fails differs by system
         raise NoDisplay(_reason(error)) from error
     from pyglet.gl import Config
