@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from weather_ecs.frame import OccluderData
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.blocks import BlockBuffer
-from weather_ecs.gpu.gl import GL
+from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.occluder_meshes import OccluderMeshes
 
 _log = logging.getLogger("weather_ecs")
@@ -90,10 +90,10 @@ class Heightmap:
     """Depth of one observer's surroundings: a cached static layer, and dynamic occluders over it."""
 
     def __init__(
-        self, ctx: moderngl.Context, gl: GL, meshes: OccluderMeshes, size: int
+        self, ctx: moderngl.Context, guard: StateGuard, meshes: OccluderMeshes, size: int
     ) -> None:
         self._ctx = ctx
-        self._gl = gl
+        self._guard = guard
         self._meshes = meshes
         self.size = size
         self.footprint: Footprint | None = None
@@ -136,17 +136,15 @@ class Heightmap:
         if not fresh and dynamic_seen == self._dynamic_seen and not callbacks:
             return False
         self.footprint = place
-        self._ctx.enable_only(moderngl.DEPTH_TEST)
-        self._ctx.depth_func = "<="
+        self._prepare(self._static_target)
         if fresh:
-            self._static_target.use()
             self._static_target.clear(depth=1.0)
-            self._draw(still, place)
+            self._draw(still, place, self._static_target)
             self._static_seen = static_seen
             self.static_captures += 1
         self._copy_static()
-        self._target.use()
-        self._draw(moving, place)
+        self._prepare(self._target)
+        self._draw(moving, place, self._target)
         self._dynamic_seen = dynamic_seen
         self._kept = (still, moving)
         self.captures += 1
@@ -154,16 +152,21 @@ class Heightmap:
 
     def _copy_static(self) -> None:
         # moderngl's copy_framebuffer goes by colour attachments, and these have none.
-        gl, n = self._gl, self.size
+        gl, n = self._guard.gl, self.size
         gl.glBindFramebuffer(e.READ_FRAMEBUFFER, self._static_target.glo)
         gl.glBindFramebuffer(e.DRAW_FRAMEBUFFER, self._target.glo)
         gl.glBlitFramebuffer(0, 0, n, n, 0, 0, n, n, e.DEPTH_BUFFER_BIT, e.NEAREST)
 
-    def _draw(self, occluders: list[OccluderData], place: Footprint) -> None:
+    def _prepare(self, target: moderngl.Framebuffer) -> None:
+        target.use()
+        self._ctx.enable_only(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "<="
+
+    def _draw(
+        self, occluders: list[OccluderData], place: Footprint, target: moderngl.Framebuffer
+    ) -> None:
         # From [0, 1] to clip space, where the depth runs the same way.
-        clip = np.array(
-            [[2.0, 0, 0, -1.0], [0, 2.0, 0, -1.0], [0, 0, 2.0, -1.0], [0, 0, 0, 1.0]]
-        )
+        clip = np.array([[2.0, 0, 0, -1.0], [0, 2.0, 0, -1.0], [0, 0, 2.0, -1.0], [0, 0, 0, 1.0]])
         to_map = clip @ place.matrix()
         for occluder in occluders:
             if occluder.draw is None:
@@ -175,6 +178,9 @@ class Heightmap:
                 # The game's own code: named, left out from here on, and the frame goes on.
                 self._broken.add(occluder.key)
                 _log.exception("occluder %r failed and is left out", occluder.draw)
+            # Whatever the game's code has bound or switched on ends here.
+            self._guard.reset()
+            self._prepare(target)
 
     def fill(self, block: BlockBuffer) -> None:
         """Write what shaders need of this map into a block `Shelter`."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import logging
 from typing import Protocol
 
 import moderngl
+import numpy as np
 
 from weather_ecs.errors import ContextError, InvalidValueError
 from weather_ecs.frame import ViewData
@@ -23,14 +23,18 @@ from weather_ecs.gpu.timer import GpuTimer, PrimitiveCounter
 from weather_ecs.gpu.veil_pass import VeilPass
 from weather_ecs.gpu.view_block import fill_view
 
-_log = logging.getLogger("weather_ecs")
-
 
 class Settings(Protocol):
     """What the renderer needs of the quality settings."""
 
     @property
     def heightmap_size(self) -> int: ...
+
+
+class Releasable(Protocol):
+    """What holds OpenGL objects."""
+
+    def release(self) -> object: ...
 
 
 class Renderer:
@@ -55,17 +59,25 @@ class Renderer:
         self.stats: dict[str, int | float] = {}
         self._gl = GL()
         self._guard = StateGuard(ctx, self._gl)
-        self._shaders = ShaderLoader(ctx)
-        self._rain = RainPass(ctx, self._shaders, backend=backend, seed=seed)
+        # Making objects binds them; the host must not notice that either.
+        with self._guard:
+            self._make(seed)
+        self._released = False
+
+    def _make(self, seed: int) -> None:
+        ctx, gl = self._ctx, self._gl
+        self._shaders = ShaderLoader(ctx, gl=gl)
+        self._rain = RainPass(ctx, self._shaders, backend=self.backend, seed=seed)
         self._veil = VeilPass(ctx, self._shaders)
         self._view_block = BlockBuffer(ctx, RAIN_VIEW)
         self._shelter_block = BlockBuffer(ctx, SHELTER)
-        self._depth = DepthCopy(ctx, self._gl)
+        self._depth = DepthCopy(ctx, gl)
+        # Stands for the depth of a host that has none: nothing in the way anywhere.
+        self._no_depth = ctx.texture((1, 1), 1, data=np.ones(1, np.float32).tobytes(), dtype="f4")
         self._meshes = OccluderMeshes(ctx, self._shaders)
         self._maps: dict[int, Heightmap] = {}
-        self._timer = GpuTimer(self._gl)
-        self._counter = PrimitiveCounter(self._gl)
-        self._released = False
+        self._timer = GpuTimer(gl)
+        self._counter = PrimitiveCounter(gl)
 
     @property
     def rain(self) -> RainPass:
@@ -115,7 +127,7 @@ class Renderer:
             if heightmap is not None:
                 heightmap.release()
             size = settings.heightmap_size
-            heightmap = Heightmap(self._ctx, self._gl, self._meshes, size)
+            heightmap = Heightmap(self._ctx, self._guard, self._meshes, size)
             self._maps[view.key] = heightmap
         rate = max(float(rate) for rate in view.frame.areas["rain_rate"])
         wind, reach = view.frame.wind, view.frame.look.reach
@@ -130,9 +142,7 @@ class Renderer:
     def _draw_veils(self, view: ViewData) -> None:
         if not view.veils:
             return
-        depth = self._depth.copy(self._guard)
-        if depth is None:
-            return
+        depth = self._depth.copy(self._guard) or self._no_depth
         ctx, gl = self._ctx, self._gl
         ctx.enable_only(moderngl.BLEND | moderngl.CULL_FACE)
         # The far sides: they are in the picture wherever the camera stands.
@@ -150,13 +160,25 @@ class Renderer:
         self._rain.draw(view)
         self._counter.end()
 
+    def forget(self, key: int) -> None:
+        """Give back what belongs to an observer who is gone; its drops go by themselves."""
+        heightmap = self._maps.pop(key, None)
+        if heightmap is not None:
+            with self._guard:
+                heightmap.release()
+
     def release(self) -> None:
         """Give back every OpenGL object, in reverse order; twice does no harm."""
         if self._released:
             return
         self._released = True
-        for thing in (self._counter, self._timer, *self._maps.values(), self._meshes, self._depth,
-                      self._shelter_block, self._view_block, self._veil, self._rain,
-                      self._shaders, self._guard):  # fmt: skip
-            thing.release()
+        things: list[Releasable] = [
+            self._counter, self._timer, *self._maps.values(), self._meshes, self._no_depth,
+            self._depth, self._shelter_block, self._view_block, self._veil, self._rain,
+            self._shaders,
+        ]  # fmt: skip
+        with self._guard:
+            for thing in things:
+                thing.release()
+        self._guard.release()
         self._maps.clear()

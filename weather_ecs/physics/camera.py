@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InvalidValueError
+from weather_ecs.errors import InvalidValueError
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import InvalidValueError
+from weather_ecs.errors import InvalidValueError
 
 FloatArray = NDArray[np.float64]
 LARGEST = float(np.finfo(np.float64).max)

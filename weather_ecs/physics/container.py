@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .camera import wrap_angle
-from .ellipse import line_intersections, nearest_perimeter_point
-from .lod import own_reach, radial_positions, rim_fade, size_factor, weight_shape
+from weather_ecs.physics.camera import wrap_angle
+from weather_ecs.physics.ellipse import line_intersections, nearest_perimeter_point
+from weather_ecs.physics.lod import own_reach, radial_positions, rim_fade, size_factor, weight_shape
 
 __all__ = [
     "Area",
@@ -165,9 +165,7 @@ def _turned(view_heading: float, half_width: float, previous: Container | None) 
     return previous.view_heading
 
 
-def _nearest(
-    area: Area, at: tuple[float, float]
-) -> tuple[bool, tuple[float, float], float]:
+def _nearest(area: Area, at: tuple[float, float]) -> tuple[bool, tuple[float, float], float]:
     """(inside?, nearest point of the perimeter, distance to the area)."""
     dx, dz = at[0] - area.center[0], at[1] - area.center[1]
     c, s = math.cos(area.heading), math.sin(area.heading)

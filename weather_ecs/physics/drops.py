@@ -14,7 +14,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InvalidValueError
+from weather_ecs.errors import InvalidValueError
+
 from .checks import FloatArray, count, floats, number
 from .fall import fall_speed
 

@@ -13,7 +13,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InvalidValueError
+from weather_ecs.errors import InvalidValueError
+
 from .checks import FloatArray, floats, number
 
 THINNEST = 1e12  # a / b beyond this has no meaning in float64 metres

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .container import Container
-from .shelter import ShelterMap
+from weather_ecs.physics.container import Container
+from weather_ecs.physics.shelter import ShelterMap
 
 # As in shaders/landed.glsl.
 LANDED = 8192.0
@@ -215,7 +215,7 @@ def _land(
     hit, true = shelter.meets(before, p)
     hits = lands & was_above & true
     kept = np.stack([p[:, 0], np.full(len(p), NO_IMPACT, F), p[:, 2]], axis=1)
-    kept = np.where(hits[:, None], hit + F([0.0, LANDED, 0.0]), kept)
+    kept = np.where(hits[:, None], hit + np.asarray([0.0, LANDED, 0.0], F), kept)
     return np.where(lands[:, None], kept, v)
 
 

@@ -55,11 +55,9 @@ class ShelterMap:
         slope = rise / np.maximum(1.0 - rise @ np.asarray(self.fall, F), F(0.2))[:, None]
         normal = np.stack([-slope[:, 0], np.ones(len(m), F), -slope[:, 1]], axis=1)
         normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-        return np.where(self._is_edge(corners)[:, None], F([0, 1, 0]), normal).astype(F)
+        return np.where(self._is_edge(corners)[:, None], np.asarray([0, 1, 0], F), normal).astype(F)
 
-    def meets(
-        self, a: NDArray, b: NDArray
-    ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    def meets(self, a: NDArray, b: NDArray) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
         """Where the ways from a to b meet the surface (n, 3), and which of them truly do.
 
         A way that crosses an edge far below the surface beside it has come in from the side.

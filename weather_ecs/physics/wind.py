@@ -28,7 +28,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InvalidValueError
+from weather_ecs.errors import InvalidValueError
+
 from .checks import FloatArray, floats, number
 
 

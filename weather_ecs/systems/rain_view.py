@@ -13,9 +13,9 @@ from typing import Protocol
 
 import numpy as np
 
-from ..frame import ContainerData, DropLook, FrameData, VeilData, ViewData
-from ..physics.camera import Camera
-from ..physics.container import (
+from weather_ecs.frame import ContainerData, DropLook, FrameData, VeilData, ViewData
+from weather_ecs.physics.camera import Camera
+from weather_ecs.physics.container import (
     Area,
     Container,
     ContainerSettings,
@@ -24,8 +24,8 @@ from ..physics.container import (
     size_factor,
     weight_shape,
 )
-from ..physics.drops import extinction, drop_density
-from ..physics.rain_step import axis_of, law_of, shape_of
+from weather_ecs.physics.drops import drop_density, extinction
+from weather_ecs.physics.rain_step import axis_of, law_of, shape_of
 
 # A drop count's last tenth fades in, so that a changing count never makes a drop appear at once.
 COUNT_FADE = 0.1
@@ -153,7 +153,7 @@ class RainView:
     ) -> list[ContainerData]:
         rate = float(row["rain_rate"])
         forward, lateral = container.reach
-        load = drop_density(rate) * container.height * math.pi * forward * lateral
+        load = float(drop_density(rate)) * container.height * math.pi * forward * lateral
         load /= 2.0 * count * (1.0 - 0.5 * COUNT_FADE)
         h = float(row["heading"])
         radii = row["radii"].tolist()
