@@ -87,7 +87,7 @@ def _slope(wind: float, fall_speed: float) -> float:
 
 
 class Heightmap:
-    """Depth of one observer's surroundings: a cached static layer, and dynamic occluders over it."""
+    """Depth of an observer's surroundings: a cached static layer, dynamic occluders over it."""
 
     def __init__(
         self, ctx: moderngl.Context, guard: StateGuard, meshes: OccluderMeshes, size: int

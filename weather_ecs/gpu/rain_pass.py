@@ -1,4 +1,4 @@
-"""The passes of the rain: move the drops, draw their streaks, draw the splashes of their impacts."""
+"""The passes of the rain: move the drops and draw their streaks."""
 
 from __future__ import annotations
 

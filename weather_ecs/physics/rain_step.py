@@ -173,7 +173,6 @@ def step(
     LANDED added to the height; NO_IMPACT for its height where it came in under cover.
     """
     ids = np.arange(len(birth), dtype=U)
-    own = birth[:, 2]
     fall = fall_speeds(diameters(birth[:, 3], s.law))
     drift = np.tile(np.asarray(s.wind[:3], F), (len(birth), 1))
     drift[:, 1] -= fall
