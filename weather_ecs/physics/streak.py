@@ -104,9 +104,7 @@ def light_on(p: NDArray, view: StreakView) -> FloatArray:
     return light
 
 
-def streaks(
-    p: NDArray, v: NDArray, birth: NDArray, view: StreakView, law: StreakLaw
-) -> Streaks:
+def streaks(p: NDArray, v: NDArray, birth: NDArray, view: StreakView, law: StreakLaw) -> Streaks:
     """Streaks of drops at p (m) that move with v (m/s), each (n, 3); birth as in `rain_step`."""
     n = len(p)
     p, v = p.astype(np.float64), v.astype(np.float64)
