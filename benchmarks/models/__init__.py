@@ -1,0 +1,1 @@
+"""Rain models that benchmarks compare, each behind the same face; see `models.model.Model`."""
