@@ -46,7 +46,7 @@ class Walk:
         self, condition: Callable[[dict[str, Any]], bool], what: str, seconds: float = PATIENCE
     ) -> dict[str, Any]:
         """The first frame from now on of which `condition` is true."""
-        seen = max(len(self.lines()) - 1, 0)
+        seen = len(self.lines())
 
         def ask() -> dict[str, Any] | None:
             lines = self.lines()
@@ -58,7 +58,10 @@ class Walk:
 
     def open(self) -> None:
         """Wait for the window, make it small, give it the keys and the mouse."""
-        self.window = self.screen.find_window(self.process)
+        try:
+            self.window = self.screen.find_window(self.process, "The Walk")
+        except AssertionError as error:
+            raise AssertionError(f"{error}\n{self.text()[-4000:]}") from None
         self.screen.xdotool("windowsize", self.window, *SIZE)
         self.screen.xdotool("windowmove", self.window, 0, 0)
         self.until(lambda line: tuple(line["size"]) == SIZE, "the new size")
@@ -107,12 +110,12 @@ def test_walk_into_the_rain_with_keys_and_mouse(walk: Walk) -> None:
     assert first["mode"] == "far"
     assert first["rain_rate_here"] == 0.0
 
-    # Look to the right and back.
+    # Look to the right and back. pyglet drops the first motion after it has taken the mouse.
+    walk.screen.xdotool("mousemove_relative", "--", 3, 0)
     walk.screen.xdotool("mousemove_relative", "--", 80, 0)
-    looked = walk.until(lambda line: line["yaw"] < first["yaw"] - 0.02, "a turn to the right")
+    walk.until(lambda line: line["yaw"] < first["yaw"] - 0.05, "a turn to the right")
     walk.screen.xdotool("mousemove_relative", "--", -80, 0)
-    walk.until(lambda line: line["yaw"] > looked["yaw"] + 0.02, "a turn back")
-    assert abs(walk.now()["yaw"] - first["yaw"]) < 0.05
+    walk.until(lambda line: abs(line["yaw"] - first["yaw"]) < 0.02, "a turn back")
 
     # Run north, through the edge of the rain.
     z = first["position"][2]
@@ -136,9 +139,10 @@ def test_walk_into_the_rain_with_keys_and_mouse(walk: Walk) -> None:
     walk.release("s")
 
 
-def test_screens_and_keys(walk: Walk) -> None:
+def test_screens_settings_and_the_end(walk: Walk) -> None:
     walk.key("Return")
     before = walk.until(on("play"), "play")
+    assert before["backend"] == "compute"
     walk.key("F3")
     walk.until(lambda line: line["readout"] != before["readout"], "the readout")
     walk.key("m")
@@ -151,7 +155,7 @@ def test_screens_and_keys(walk: Walk) -> None:
     walk.key("F12")
     pictures = walk.folder / "screenshots"
     saved = wait_until(lambda: sorted(pictures.glob("*.png")), "a picture", PATIENCE)
-    walk.until(lambda line: True, "the frame after")
+    walk.until(lambda line: True, "the end of the frame that saves it")
     with Image.open(saved[0]) as picture:
         assert picture.size == SIZE
         assert len(picture.convert("RGB").getcolors(SIZE[0] * SIZE[1]) or []) > 500
@@ -163,29 +167,20 @@ def test_screens_and_keys(walk: Walk) -> None:
 
     walk.key("Escape")
     paused = walk.until(on("pause"), "the pause menu")
-    walk.hold("w")
+    walk.hold("d")
     walk.key("Down")
-    walk.release("w")
+    walk.until(lambda line: True, "a frame")
+    walk.release("d")
     assert walk.until(lambda line: True, "a frame")["position"] == paused["position"]
+    # The first Down led to the quality; the next one leads to the rain engine.
+    walk.key("Right")
+    walk.until(lambda line: line["quality"] == "medium", "medium quality")
+    walk.key("Down")
+    walk.key("Left")
+    walk.until(lambda line: line["backend"] == "feedback", "the other backend")
     walk.key("Escape")
     walk.until(on("play"), "back from the menu")
 
-
-def test_settings_and_quit_in_the_menu(walk: Walk) -> None:
-    walk.key("Return")
-    before = walk.until(on("play"), "play")
-    walk.key("Escape")
-    walk.until(on("pause"), "the pause menu")
-    walk.key("Down")  # quality
-    walk.key("Right")
-    walk.until(lambda line: line["quality"] == "medium", "medium quality")
-    walk.key("Down")  # rain engine: auto, compute, feedback
-    walk.key("Left")
-    walk.key("Left")
-    after = walk.until(lambda line: line["backend"] != before["backend"], "the other backend")
-    assert {before["backend"], after["backend"]} == {"compute", "feedback"}
-    walk.key("Escape")
-    walk.until(on("play"), "play")
     walk.key("Escape")
     walk.until(on("pause"), "the pause menu")
     walk.key("Up")  # from the first row to the last one: quit

@@ -87,13 +87,15 @@ class Display:
         )
         return done.stdout.strip()
 
-    def find_window(self, process: subprocess.Popen[str], seconds: float = 90.0) -> str:
-        """X id of the visible window of a process; fails as soon as the process ends."""
+    def find_window(
+        self, process: subprocess.Popen[str], title: str, seconds: float = 90.0
+    ) -> str:
+        """X id of the visible window with this title; fails as soon as the process ends."""
 
         def look() -> str | None:
             if process.poll() is not None:
                 raise AssertionError(f"the program exited {process.returncode} before its window")
-            found = self.xdotool("search", "--onlyvisible", "--pid", process.pid).split()
+            found = self.xdotool("search", "--onlyvisible", "--name", f"^{title}$").split()
             return found[0] if found else None
 
         return wait_until(look, "a visible window", seconds)
