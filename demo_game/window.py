@@ -77,6 +77,8 @@ class GameWindow(pyglet.window.Window):
         )
         self._menu = menu
         self._help_from = Screen.PAUSE
+        self._shown_for = 0  # frames
+        self._mouse_rest: tuple[int, int] | None = None
         self.overlay = Overlay(menu, _map_place(self.game))
         self._gamepads = Gamepads(self.controls, pause=self._toggle_pause)
         self._ms = 16.0
@@ -120,6 +122,7 @@ class GameWindow(pyglet.window.Window):
         if not self.ready:
             return
         dt = min(max(dt, 0.0), LONGEST_DT)
+        self._shown_for += 1
         self.overlay.update(dt)
         if self.screen_shown is Screen.PLAY:
             self.game.player.look(*self.controls.turn(dt))
@@ -190,6 +193,8 @@ class GameWindow(pyglet.window.Window):
 
     def _show(self, screen: Screen) -> None:
         self.screen_shown = screen
+        self._shown_for = 0
+        self._mouse_rest = None
         self.controls.clear()
         self.set_exclusive_mouse(screen is Screen.PLAY)
 
@@ -265,7 +270,14 @@ class GameWindow(pyglet.window.Window):
             rise = -dy if self.settings.invert else dy
             self.game.player.look(-dx * speed, rise * speed)
         elif self.screen_shown is Screen.PAUSE:
-            self._menu.point(self.overlay.pause_view.row_at(x, y))
+            if self._mouse_has_moved(x, y):
+                self._menu.point(self.overlay.pause_view.row_at(x, y))
+
+    def _mouse_has_moved(self, x: int, y: int) -> bool:
+        # Setting the mouse free moves it: a menu must not take that for the player's choice.
+        if self._mouse_rest is None or self._shown_for < 3:
+            self._mouse_rest = (x, y)
+        return abs(x - self._mouse_rest[0]) + abs(y - self._mouse_rest[1]) > 3
 
     def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int) -> None:
         """The same with a button held."""
