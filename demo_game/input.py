@@ -38,6 +38,21 @@ PRESET_KEYS = {
 }
 
 
+# What pyglet calls keys while Shift is held down, as it is by somebody who runs.
+SHIFTED = {
+    "EXCLAMATION": "_1",
+    "AT": "_2",
+    "HASH": "_3",
+    "DOLLAR": "_4",
+    "PERCENT": "_5",
+    "ASCIICIRCUM": "_6",
+    "BRACELEFT": "BRACKETLEFT",
+    "BRACERIGHT": "BRACKETRIGHT",
+    "LESS": "COMMA",
+    "GREATER": "PERIOD",
+}
+
+
 @dataclass
 class Stick:
     """A gamepad's sticks and buttons; right and up are positive."""

@@ -29,7 +29,7 @@ from pyglet.window import key
 
 from demo_game.game import Game
 from demo_game.gamepad import Gamepads
-from demo_game.input import PRESET_KEYS, Controls
+from demo_game.input import PRESET_KEYS, SHIFTED, Controls
 from demo_game.pictures import save_screenshot
 from demo_game.settings import Settings
 from demo_game.ui.hud import compass
@@ -247,6 +247,7 @@ class GameWindow(pyglet.window.Window):
 
     def _play_key(self, name: str) -> None:
         game = self.game
+        name = SHIFTED.get(name, name)
         if name in PRESET_KEYS:
             preset = PRESET_KEYS[name]
             self.overlay.say(game.choose_preset(preset))

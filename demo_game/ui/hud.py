@@ -18,9 +18,9 @@ ROWS = (
     "engine",
     "position",
 )
-WIDTH = 318.0  # units
+WIDTH = 340.0  # units
 ROW = 22.0
-NAME_WIDTH = 112.0
+NAME_WIDTH = 128.0
 SIZE = 14.0
 
 INTERVAL = 0.25  # s between two readings; figures that change faster cannot be read

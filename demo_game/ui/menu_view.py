@@ -45,7 +45,7 @@ class MenuView:
         pad = px(PADDING * 2)
         layer.text(menu.title, left + pad, self.panel.top - px(HEAD * 0.52), 26, bold=True)
         layer.text(
-            "↑ ↓ choose     ← → change     Enter select     Esc resume",
+            "↑ ↓ choose    ← → change    Esc resume",
             left + pad,
             self.panel.y + px(FOOT * 0.5),
             12,
