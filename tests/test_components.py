@@ -22,11 +22,12 @@ from weather_ecs.components import (
     PointLight,
     RainArea,
     RainContainer,
+    SplashEmitter,
     Sun,
     Wind,
 )
 from weather_ecs.errors import InvalidValueError
-from weather_ecs.frame import DropLook, SkyLight
+from weather_ecs.frame import DropLook, SkyLight, SplashLook
 
 ROOT = Path(__file__).resolve().parent.parent
 NAN, INF = math.nan, math.inf
@@ -59,6 +60,17 @@ CASES = [
     (RainContainer, "opacity", [0, 1]),
     (RainContainer, "veil", [0, 10]),
     (RainContainer, "fastest", [0, 1000]),
+    (SplashEmitter, "size", [0, 200]),
+    (SplashEmitter, "largest", [0.001, 10]),
+    (SplashEmitter, "duration", [0.02, 5]),
+    (SplashEmitter, "opacity", [0, 1]),
+    (SplashEmitter, "share", [0, 1]),
+    (SplashEmitter, "droplets", [0, 6]),
+    (SplashEmitter, "droplet_size", [0.1, 100]),
+    (SplashEmitter, "droplet_speed", [0, 1]),
+    (SplashEmitter, "spread", [0, 1.57]),
+    (SplashEmitter, "drift", [0, 1]),
+    (SplashEmitter, "detail", [0, 100]),
     (Wind, "direction", [(0, 3), [-1e-200, 0], np.array([1e308, 1e308])]),
     (Wind, "speed", [0, 150]),
     (Sun, "direction", [(0, -1, 0)]),
@@ -88,6 +100,17 @@ BAD = [
     (RainContainer, "opacity", [1.5]),
     (RainContainer, "veil", [-1]),
     (RainContainer, "fastest", [-1, 1001]),
+    (SplashEmitter, "size", [-1, 201]),
+    (SplashEmitter, "largest", [0, 11]),
+    (SplashEmitter, "duration", [0, 6]),
+    (SplashEmitter, "opacity", [-0.1, 1.5]),
+    (SplashEmitter, "share", [-0.1, 1.1]),
+    (SplashEmitter, "droplets", [-1, 7]),
+    (SplashEmitter, "droplet_size", [0, 101]),
+    (SplashEmitter, "droplet_speed", [-0.1, 1.1]),
+    (SplashEmitter, "spread", [-0.1, 1.6]),
+    (SplashEmitter, "drift", [-0.1, 1.1]),
+    (SplashEmitter, "detail", [-1, 101]),
     (Wind, "direction", [(0, 0), (1, 0, 0), (-0.0, 0.0)]),
     (Wind, "speed", [-1, 151]),
     (Sun, "direction", [(0, 0, 0), (1, 0)]),
@@ -137,12 +160,10 @@ def test_every_field_of_every_component_is_among_the_cases():
 
 
 def test_defaults_are_those_of_the_frame():
-    look, container = DropLook(), RainContainer()
-    for field in dataclasses.fields(DropLook):
-        assert getattr(container, field.name) == getattr(look, field.name)
-    assert [f.name for f in dataclasses.fields(RainContainer)] == [
-        f.name for f in dataclasses.fields(DropLook)
-    ]
+    for look, component in ((DropLook(), RainContainer()), (SplashLook(), SplashEmitter())):
+        names = [field.name for field in dataclasses.fields(look)]
+        assert [field.name for field in dataclasses.fields(component)] == names
+        assert all(getattr(component, name) == getattr(look, name) for name in names)
     sky, sun = SkyLight(), Sun()
     for field in dataclasses.fields(Sun):
         name = field.name if field.name.endswith("r") and "_" in field.name else f"sun_{field.name}"

@@ -65,6 +65,23 @@ class DropLook:
     fastest: float = 8.0  # m/s, of the observer's own speed that slants the streaks at most
 
 
+@dataclass(frozen=True, slots=True)
+class SplashLook:
+    """Looks of the splashes; see `components.SplashEmitter`."""
+
+    size: float = 16.0  # factor on the radius to which the drop's water spreads
+    largest: float = 0.12  # m, radius that no crown exceeds
+    duration: float = 0.24  # s, from the hit until the crown has sunk
+    opacity: float = 0.7  # greatest of one splash
+    share: float = 0.005  # of the real drops whose splash is shown full-grown
+    droplets: float = 4.0  # mean number that one splash throws, 6 at most
+    droplet_size: float = 5.0  # mm, as they are drawn
+    droplet_speed: float = 0.2  # of the drop's own speed at the hit
+    spread: float = 0.7  # rad, greatest angle between a droplet's way and the normal
+    drift: float = 0.3  # share of the wind that there is so close to the surface
+    detail: float = 9.0  # m, distance up to which droplets and films are drawn
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class OccluderData:
     """Something rain can hit: a mesh with its place, or a callback that draws it."""
@@ -89,6 +106,7 @@ class FrameData:
     sky: SkyLight = field(default_factory=SkyLight)
     look: DropLook = field(default_factory=DropLook)
     occluders: tuple[OccluderData, ...] = ()
+    splash: SplashLook | None = None  # None: no splashes
 
 
 @dataclass(frozen=True, slots=True)

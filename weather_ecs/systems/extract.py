@@ -10,7 +10,14 @@ import esper
 import numpy as np
 from numpy.typing import NDArray
 
-from weather_ecs.components import PointLight, RainArea, RainContainer, Sun, Wind
+from weather_ecs.components import (
+    PointLight,
+    RainArea,
+    RainContainer,
+    SplashEmitter,
+    Sun,
+    Wind,
+)
 from weather_ecs.frame import (
     AREA_DTYPE,
     LIGHT_DTYPE,
@@ -18,6 +25,7 @@ from weather_ecs.frame import (
     FrameData,
     OccluderData,
     SkyLight,
+    SplashLook,
     empty,
 )
 from weather_ecs.systems.occluders import OccluderList
@@ -26,8 +34,9 @@ from weather_ecs.systems.rain_area import drift_velocity
 from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.wind import total_wind
 
-_KINDS = (RainArea, Wind, PointLight, Sun, RainContainer)
+_KINDS = (RainArea, Wind, PointLight, Sun, RainContainer, SplashEmitter)
 _LOOK = tuple(item.name for item in fields(DropLook))
+_SPLASH = tuple(item.name for item in fields(SplashLook))
 _NO_AREAS = empty(AREA_DTYPE)
 _NO_LIGHTS = empty(LIGHT_DTYPE)
 
@@ -48,6 +57,7 @@ class ExtractSystem:
         self._still: NDArray = _NO_AREAS  # the areas where the last fixed step left them
         self._velocity: NDArray | None = None  # (n, 2), m/s; None where all stand still
         self._parts: tuple[NDArray, tuple[float, float, float], SkyLight, DropLook]
+        self._splash: SplashLook | None = None
         self._occluders = OccluderList()
         self._time = -1.0
 
@@ -82,7 +92,7 @@ class ExtractSystem:
             areas = areas.copy()
             areas["center"] += self._velocity * clock.remainder
             areas.setflags(write=False)
-        return FrameData(clock.time, clock.steps, areas, *self._parts, occluders)
+        return FrameData(clock.time, clock.steps, areas, *self._parts, occluders, self._splash)
 
     def _rebuild(self, state: WeatherState) -> None:
         wind = total_wind(state)
@@ -107,6 +117,7 @@ class ExtractSystem:
         ]
         lights = _frozen(lamps, LIGHT_DTYPE) if lamps else _NO_LIGHTS
         self._parts = (lights, wind, _sky(state), _look(state))
+        self._splash = _splash(state)
         self._entities = [
             pair[0]
             for kind in _KINDS
@@ -133,3 +144,9 @@ def _look(state: WeatherState) -> DropLook:
     for _, container in alive(RainContainer, state.uids):
         return DropLook(*[getattr(container, name) for name in _LOOK])
     return DropLook()
+
+
+def _splash(state: WeatherState) -> SplashLook | None:
+    for _, emitter in alive(SplashEmitter, state.uids):
+        return SplashLook(*[getattr(emitter, name) for name in _SPLASH])
+    return None
