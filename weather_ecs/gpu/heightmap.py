@@ -101,8 +101,8 @@ class Heightmap:
         self.static_captures = 0
         self._static, self._static_target = self._layer()
         self.texture, self._target = self._layer()
-        self._static_seen: tuple[tuple[int, int], ...] | None = None
-        self._dynamic_seen: tuple[tuple[int, int], ...] | None = None
+        self._static_seen: tuple[tuple[int, ...], ...] | None = None
+        self._dynamic_seen: tuple[tuple[int, ...], ...] | None = None
         self._broken: set[int] = set()
 
     def _layer(self) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
@@ -127,10 +127,8 @@ class Heightmap:
         place = footprint(position, reach, wind, fall_speed, self.size, self.footprint)
         still = [o for o in occluders if not o.dynamic and o.key not in self._broken]
         moving = [o for o in occluders if o.dynamic and o.key not in self._broken]
-        # Arrays are compared by identity: a changed mesh or place comes as a new array. They are
-        # kept by the meshes and by this frame, so an identity is not used twice unnoticed.
-        static_seen = tuple((o.key, id(o.transform) ^ id(o.vertices)) for o in still)
-        dynamic_seen = tuple((o.key, id(o.transform) ^ id(o.vertices)) for o in moving)
+        static_seen = tuple(map(_identity, still))
+        dynamic_seen = tuple(map(_identity, moving))
         fresh = place != self.footprint or static_seen != self._static_seen
         callbacks = any(o.draw is not None for o in moving)
         if not fresh and dynamic_seen == self._dynamic_seen and not callbacks:
@@ -195,6 +193,15 @@ class Heightmap:
         """Give everything back; twice does no harm."""
         for thing in (self._target, self.texture, self._static_target, self._static):
             thing.release()
+
+
+def _identity(occluder: OccluderData) -> tuple[int, ...]:
+    """What differs where an occluder has changed: a new mesh, place or callback is a new object.
+
+    The map keeps what it has captured, so that no identity is used twice unnoticed.
+    """
+    o = occluder
+    return (o.key, id(o.transform), id(o.vertices), id(o.indices), id(o.draw))
 
 
 def fall_speed_of(rain_rate: float) -> float:
