@@ -25,7 +25,7 @@ from benchmarks.harness import Case, Result, measure, renderer_name
 from benchmarks.models.model import Model, Rival
 from benchmarks.models.ours import OurRain
 from benchmarks.models.rousseau import RousseauRain
-from benchmarks.models.stage import Stage, create_context
+from benchmarks.models.stage import Look, Stage, create_context
 from benchmarks.models.tariq import TariqRain
 from weather_ecs.presets import PRESETS
 
@@ -37,14 +37,6 @@ SIZES = (0.05, 40.0)  # bracket of the first bisection
 FINENESS = (1.1, 1.03, 1.004)
 
 
-@dataclass(frozen=True)
-class Look:
-    """How a picture looks: covered share of the pixels, and their mean change in [0, 1]."""
-
-    covered: float
-    strength: float
-
-
 def look(stage: Stage, model: Model, moments: int) -> Look:
     """Mean over some moments to come."""
     found = []
@@ -53,7 +45,8 @@ def look(stage: Stage, model: Model, moments: int) -> Look:
         stage.begin()
         model.draw()
         found.append(stage.look())
-    return Look(*(sum(values) / moments for values in zip(*found, strict=True)))
+    covered = sum(one.covered for one in found) / moments
+    return Look(covered, sum(one.strength for one in found) / moments)
 
 
 def calibrate(stage: Stage, rival: Rival, wanted: Look, moments: int) -> Look:

@@ -22,6 +22,14 @@ def create_context() -> moderngl.Context:
 
 
 @dataclass(frozen=True)
+class Look:
+    """How rain looks: covered share of the pixels, and their mean change in [0, 1]."""
+
+    covered: float
+    strength: float
+
+
+@dataclass(frozen=True)
 class Camera:
     """A level camera that stands still; matrices (4, 4) for column vectors."""
 
@@ -61,6 +69,7 @@ class Stage:
         self._color = ctx.texture(size, 4)
         self._depth = ctx.depth_texture(size)
         self._target = ctx.framebuffer([self._color], self._depth)
+        self.begin()  # even what draws nothing needs a complete framebuffer
 
     def begin(self) -> None:
         """Bind the picture and clear it."""
@@ -73,13 +82,12 @@ class Stage:
         data = np.frombuffer(self._target.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1]
 
-    def look(self) -> tuple[float, float]:
-        """Share of the pixels that are covered, and their mean change in [0, 1]."""
+    def look(self) -> Look:
         plain = np.round(np.array(BACKGROUND) * 255.0).astype(np.int16)
         change = np.abs(self.picture().astype(np.int16) - plain).max(axis=2)
         covered = change > COVERED
         share = float(covered.mean())
-        return share, float(change[covered].mean() / 255.0) if share > 0.0 else 0.0
+        return Look(share, float(change[covered].mean()) / 255.0 if share > 0.0 else 0.0)
 
     def release(self) -> None:
         for thing in (self._target, self._depth, self._color):
