@@ -11,6 +11,7 @@ import moderngl
 
 from demo_game.camera import Pose, projection_matrix, view_matrix
 from demo_game.collision import Colliders
+from demo_game.compass import compass
 from demo_game.entities import Entities, direction
 from demo_game.mood import TURN_STEP, WIND_STEP, MoodChanger, preset_mood
 from demo_game.place import Place
@@ -115,10 +116,10 @@ class Game:
         self.mood.blow(steps * WIND_STEP)
         return f"Wind {self.mood.target.wind_speed:.1f} m/s"
 
-    def turn_wind(self, steps: int) -> float:
-        """Turn the wind by keys; returns its bearing in degrees."""
+    def turn_wind(self, steps: int) -> str:
+        """Turn the wind by keys; returns what to tell the player."""
         self.mood.turn_wind(steps * TURN_STEP)
-        return bearing(self.mood.target.wind_heading)
+        return f"Wind to the {compass(self.mood.target.wind_heading)}"
 
     def settings_changed(self, field: str) -> None:
         """A setting has another value now."""
@@ -196,8 +197,3 @@ class Game:
             wind=(mood.wind_speed * x, 0.0, mood.wind_speed * z),
             lamps=light.lamps,
         )
-
-
-def bearing(heading: float) -> float:
-    """Degrees from -z (north) over +x (east) of a heading."""
-    return (90.0 - math.degrees(heading)) % 360.0

@@ -6,36 +6,19 @@ import time as clock
 from typing import Any
 
 import moderngl
-import numpy as np
 import pyglet
-from numpy.typing import NDArray
-from pyglet.gl import (
-    GL_CULL_FACE,
-    GL_DEPTH_TEST,
-    GL_PACK_ALIGNMENT,
-    GL_READ_FRAMEBUFFER,
-    GL_RGB,
-    GL_SCISSOR_TEST,
-    GL_UNSIGNED_BYTE,
-    glBindFramebuffer,
-    glBindVertexArray,
-    glDepthMask,
-    glDisable,
-    glPixelStorei,
-    glReadPixels,
-    glViewport,
-)
 from pyglet.window import key
 
 from demo_game.game import Game
 from demo_game.gamepad import Gamepads
-from demo_game.input import PRESET_KEYS, SHIFTED, Controls
+from demo_game.input import Controls
 from demo_game.pictures import save_screenshot
+from demo_game.play_keys import play_key
 from demo_game.settings import Settings
-from demo_game.ui.hud import compass
-from demo_game.ui.menu import MenuActions, pause_menu
+from demo_game.ui.menu import MenuActions, MouseRest, pause_menu
 from demo_game.ui.minimap import MapPlace
 from demo_game.ui.overlay import Overlay, Screen
+from demo_game.ui.surface import prepare_for_pyglet, read_pixels
 
 TITLE = "The Walk"
 LONGEST_DT = 0.25  # s; a pause of the machine does not move the player on
@@ -77,8 +60,7 @@ class GameWindow(pyglet.window.Window):
         )
         self._menu = menu
         self._help_from = Screen.PAUSE
-        self._shown_for = 0  # frames
-        self._mouse_rest: tuple[int, int] | None = None
+        self._mouse_rest = MouseRest()
         self.overlay = Overlay(menu, _map_place(self.game))
         self._gamepads = Gamepads(self.controls, pause=self._toggle_pause)
         self._ms = 16.0
@@ -122,7 +104,7 @@ class GameWindow(pyglet.window.Window):
         if not self.ready:
             return
         dt = min(max(dt, 0.0), LONGEST_DT)
-        self._shown_for += 1
+        self._mouse_rest.frame()
         self.overlay.update(dt)
         if self.screen_shown is Screen.PLAY:
             self.game.player.look(*self.controls.turn(dt))
@@ -142,30 +124,11 @@ class GameWindow(pyglet.window.Window):
         screen = self._gl.detect_framebuffer(0)
         screen.viewport = (0, 0, width, height)
         self.game.draw(screen)
-        self._prepare_overlay(width, height)
+        prepare_for_pyglet(self)
         self.overlay.draw(self.screen_shown, self.game, self._ms)
         if self._wants_picture:
             self._wants_picture = False
-            self.overlay.say(f"Saved {save_screenshot(self.picture())}")
-
-    def picture(self) -> NDArray[np.uint8]:
-        """What was drawn, shape (height, width, 3), top row first."""
-        width, height = self.get_framebuffer_size()
-        pixels = np.zeros((height, width, 3), np.uint8)
-        # moderngl's read asks for a colour attachment, which a window's framebuffer has not.
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, 0)
-        glPixelStorei(GL_PACK_ALIGNMENT, 1)
-        glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.ctypes.data)
-        return pixels[::-1]
-
-    def _prepare_overlay(self, width: int, height: int) -> None:
-        # pyglet's labels and shapes expect its own window block and no depth test.
-        for state in (GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST):
-            glDisable(state)
-        glDepthMask(True)
-        glBindVertexArray(0)
-        glViewport(0, 0, width, height)
-        self.ubo.bind()
+            self.overlay.say(f"Saved {save_screenshot(read_pixels(width, height))}")
 
     # Screens
 
@@ -193,8 +156,7 @@ class GameWindow(pyglet.window.Window):
 
     def _show(self, screen: Screen) -> None:
         self.screen_shown = screen
-        self._shown_for = 0
-        self._mouse_rest = None
+        self._mouse_rest = MouseRest()
         self.controls.clear()
         self.set_exclusive_mouse(screen is Screen.PLAY)
 
@@ -235,7 +197,11 @@ class GameWindow(pyglet.window.Window):
         elif name == "ESCAPE":
             self.pause()
         else:
-            self._play_key(name)
+            answer = play_key(name, self.game, self.overlay)
+            if answer is None:
+                self.controls.press(name)
+            elif answer:
+                self.overlay.say(answer)
         return True  # pyglet's own handler closes the window on Escape
 
     def on_key_release(self, symbol: int, modifiers: int) -> None:
@@ -245,40 +211,14 @@ class GameWindow(pyglet.window.Window):
     def _back(self) -> None:
         self._show(self._help_from)
 
-    def _play_key(self, name: str) -> None:
-        game = self.game
-        name = SHIFTED.get(name, name)
-        if name in PRESET_KEYS:
-            preset = PRESET_KEYS[name]
-            self.overlay.say(game.choose_preset(preset))
-        elif name in ("BRACKETLEFT", "BRACKETRIGHT"):
-            self.overlay.say(game.blow(1 if name == "BRACKETRIGHT" else -1))
-        elif name in ("COMMA", "PERIOD"):
-            towards = compass(game.turn_wind(1 if name == "COMMA" else -1))
-            self.overlay.say(f"Wind to the {towards}")
-        elif name == "T":
-            game.sky.next()
-            self.overlay.say(game.sky.name.capitalize())
-        elif name == "M":
-            self.overlay.show_map = not self.overlay.show_map
-        else:
-            self.controls.press(name)
-
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
         """Look, or point at a row of the menu."""
         if self.screen_shown is Screen.PLAY:
             speed = self.settings.look_speed
             rise = -dy if self.settings.invert else dy
             self.game.player.look(-dx * speed, rise * speed)
-        elif self.screen_shown is Screen.PAUSE:
-            if self._mouse_has_moved(x, y):
-                self._menu.point(self.overlay.pause_view.row_at(x, y))
-
-    def _mouse_has_moved(self, x: int, y: int) -> bool:
-        # Setting the mouse free moves it: a menu must not take that for the player's choice.
-        if self._mouse_rest is None or self._shown_for < 3:
-            self._mouse_rest = (x, y)
-        return abs(x - self._mouse_rest[0]) + abs(y - self._mouse_rest[1]) > 3
+        elif self.screen_shown is Screen.PAUSE and self._mouse_rest.moved(x, y):
+            self._menu.point(self.overlay.pause_view.row_at(x, y))
 
     def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int) -> None:
         """The same with a button held."""

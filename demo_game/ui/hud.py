@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from demo_game.compass import compass
 from demo_game.ui.theme import MARGIN, PADDING, TEXT_DIM, Frame, Layer, Rect, Text
 
 ROWS = (
@@ -107,7 +108,7 @@ def readout_values(
     backend: str,
     position: tuple[float, float, float],
 ) -> dict[str, str]:
-    """The texts of the readout; wind is its speed in m/s and heading in degrees."""
+    """The texts of the readout; wind is its speed in m/s and heading in rad."""
     get = lambda name: getattr(stats, name, 0)  # noqa: E731
     used = str(get("quality"))
     return {
@@ -122,11 +123,3 @@ def readout_values(
         "engine": backend,
         "position": "  ".join(f"{value:.1f}" for value in position) + " m",
     }
-
-
-POINTS = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
-
-
-def compass(bearing: float) -> str:
-    """Name of a bearing in degrees from -z (north) over +x (east)."""
-    return POINTS[round(bearing / 45.0) % 8]

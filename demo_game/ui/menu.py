@@ -79,6 +79,30 @@ class Menu:
             change(by)
 
 
+class MouseRest:
+    """Tells a mouse that the player moves from one that the game has just set free.
+
+    Setting it free moves it to where it was before, and a menu must not take that for a choice.
+    """
+
+    SETTLING = 3  # frames
+    PLAY = 3  # px
+
+    def __init__(self) -> None:
+        self._frames = 0
+        self._at: tuple[float, float] | None = None
+
+    def frame(self) -> None:
+        """A frame was drawn."""
+        self._frames += 1
+
+    def moved(self, x: float, y: float) -> bool:
+        """The mouse is at (x, y): whether the player put it there."""
+        if self._at is None or self._frames < self.SETTLING:
+            self._at = (x, y)
+        return abs(x - self._at[0]) + abs(y - self._at[1]) > self.PLAY
+
+
 @dataclass(frozen=True)
 class MenuActions:
     """What the pause menu asks of the window."""

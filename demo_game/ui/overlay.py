@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import Any
 
-from demo_game.game import Game, bearing
+from demo_game.game import Game
 from demo_game.ui.help import HelpView
 from demo_game.ui.hud import INTERVAL, Message, Readout, readout_values
 from demo_game.ui.menu import Menu
@@ -112,7 +112,7 @@ class Overlay:
                 readout_values(
                     ms=ms,
                     stats=game.weather.stats,
-                    wind=(mood.wind_speed, bearing(mood.wind_heading)),
+                    wind=(mood.wind_speed, mood.wind_heading),
                     state=f"{game.state}, {game.sky.name}",
                     quality=game.settings.quality,
                     backend=game.weather.backend,

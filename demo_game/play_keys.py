@@ -1,0 +1,32 @@
+"""Keys that change the weather or what is shown while one plays."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from demo_game.game import Game
+from demo_game.input import PRESET_KEYS, SHIFTED
+
+
+class Shown(Protocol):
+    """What can be switched on and off."""
+
+    show_map: bool
+
+
+def play_key(name: str, game: Game, shown: Shown) -> str | None:
+    """Do what a key means; returns a line for the player, or None where it means nothing here."""
+    name = SHIFTED.get(name, name)
+    if name in PRESET_KEYS:
+        return game.choose_preset(PRESET_KEYS[name])
+    if name in ("BRACKETLEFT", "BRACKETRIGHT"):
+        return game.blow(1 if name == "BRACKETRIGHT" else -1)
+    if name in ("COMMA", "PERIOD"):
+        return game.turn_wind(1 if name == "COMMA" else -1)
+    if name == "T":
+        game.sky.next()
+        return game.sky.name.capitalize()
+    if name == "M":
+        shown.show_map = not shown.show_map
+        return ""
+    return None
