@@ -54,8 +54,8 @@ def rows_of(wall: str) -> int:
     return ROWS if wall in ("front", "back") else int((RIDGE - 0.12) / ROW)
 
 
-def walls(build: Builder) -> None:
-    """Lapped planks outside, flush planks inside, frames round the openings."""
+def walls(build: Builder, room: Builder) -> None:
+    """Lapped planks outside, flush planks inside (into `room`), frames round the openings."""
     for name, (out, along, _, away) in WALLS.items():
         for row in range(rows_of(name)):
             low, high = row * ROW, (row + 1) * ROW
@@ -74,7 +74,7 @@ def walls(build: Builder) -> None:
                 back += [a + inner + UP * high, b + inner + UP * high]
                 tint = 1.0 + 0.10 * build.random.uniform(-1.0, 1.0)
                 cuts = max(1, round((end - start) / 0.6))
-                build.quad(back, palette.PLANK_INSIDE * tint, WOOD, cuts)
+                room.quad(back, palette.PLANK_INSIDE * tint, WOOD, cuts)
     for x in (-1, 1):
         for z in (-1, 1):
             at = (x * (WIDTH / 2 - 0.02), TOP / 2, z * (DEPTH / 2 - 0.02))
@@ -102,8 +102,8 @@ def _frame(build: Builder, wall: str, low: float, high: float, first: int, last:
         piece((low + high) / 2.0, (bottom + top) / 2.0, (high - low, 0.045, 0.05))
 
 
-def roof(build: Builder) -> None:
-    """Two slopes of shingle courses, boards below, ridge and rake boards."""
+def roof(build: Builder, room: Builder) -> None:
+    """Two slopes of shingle courses, ridge and rake boards; boards below (into `room`)."""
     length = WIDTH + 2.0 * GABLE
     slope = (DEPTH / 2.0 + EAVES) / np.cos(PITCH)
     courses, thick = 12, 0.10
@@ -131,7 +131,7 @@ def roof(build: Builder) -> None:
             build.quad(face, palette.SHINGLE * 0.6, WOOD)
         under, eave = ridge, ridge + down * slope
         face = [eave + right * length / 2, eave - right * length / 2, under - right * length / 2]
-        build.quad([*face, under + right * length / 2], palette.BOARD * 0.8, WOOD, 8)
+        room.quad([*face, under + right * length / 2], palette.BOARD * 0.8, WOOD, 10)
         turn = axis_matrix((1.0, 0.0, 0.0), side * PITCH)
         for x in (-length / 2.0, length / 2.0):
             at = ridge + down * slope / 2.0 + normal * 0.04 + UP * 0.0

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from . import cabin, cabin_porch, cabin_room
+from . import cabin, cabin_porch, cabin_room, palette
 from .cabin import DEPTH, EAVES, GABLE, PITCH, RIDGE, ROW, TOP, WALL, WALLS, WIDTH
-from .mesh import axis_matrix, yaw_matrix
+from .mesh import PLAIN, Builder, Mesh, axis_matrix, yaw_matrix
 
 
 @dataclass(frozen=True)
@@ -105,3 +105,30 @@ def blocks() -> list[Block]:
     tall = RIDGE + 1.75
     found.append(_block((WIDTH / 2 + 0.40, tall / 2.0 - 1.0, -0.6), (0.80, tall, 1.2)))
     return found
+
+
+def simple_mesh(blocks: list[Block]) -> Mesh:
+    """The cabin for the distance: its blocks, dark panes in its openings."""
+    build = Builder(29)
+    for block in blocks:
+        if block.size[1] >= 1.0 and block.walkable:
+            color = palette.BEAM * 0.6
+        elif not block.solid:
+            color = palette.SHINGLE
+        elif max(block.size) > 6.0:
+            color = palette.STONE_WARM
+        elif block.heading:
+            color = palette.DOOR
+        else:
+            color = palette.PLANK
+        if min(block.size) < 0.145 and block.solid and not block.heading:
+            color = palette.BEAM
+        build.box(block.center, block.size, color, rotation=block.rotation, material=PLAIN)
+    for wall, low, high, first, last in [cabin.DOOR, *cabin.WINDOWS]:
+        out, along, _, away = WALLS[wall]
+        turn = np.stack([along, (0.0, 1.0, 0.0), out], 1)
+        middle = out * (away - WALL / 2.0) + along * (low + high) / 2.0
+        middle = middle + (0.0, (first + last) * ROW / 2.0, 0.0)
+        size = (high - low, (last - first) * ROW, 0.02)
+        build.box(middle, size, palette.GLASS * 0.25, rotation=turn, material=PLAIN)
+    return build.build()

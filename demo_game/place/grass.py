@@ -11,7 +11,7 @@ from . import layout, palette
 from .noise import smoothstep
 from .terrain import Terrain
 
-PATCH = 15.0  # m, side of a patch
+PATCH = 10.0  # m, side of a patch
 
 
 @dataclass(frozen=True)
@@ -27,22 +27,24 @@ class Grass:
 
 
 def _stands(terrain: Terrain, rng: np.random.Generator) -> NDArray:
-    """(n, 4) x, z, height, reed or not."""
-    count = 30000
-    x, z = rng.uniform(-34, 34, count), rng.uniform(-172, 96, count)
+    """(n, 4) x, z, height m, kind: 0 grass, 1 reed, 2 flower."""
+    count = 95000
+    x, z = rng.uniform(-24, 24, count), rng.uniform(-170, 92, count)
     points = np.stack([x, z], 1)
     trail = terrain.trail_distance(points)
-    clump = terrain.noise.fbm(x / 4.0, z / 4.0 + 50, 2)
-    chance = smoothstep(1.15, 1.7, trail) * smoothstep(13.0, 1.8, trail)
-    chance *= 0.10 + 0.9 * smoothstep(-0.1, 0.45, clump)
+    clump = terrain.noise.fbm(x / 3.1, z / 3.1 + 50, 3)
+    chance = smoothstep(1.0, 1.6, trail) * smoothstep(11.0, 1.6, trail) ** 1.3
+    chance *= 0.16 + 0.84 * smoothstep(-0.05, 0.40, clump)
     dx, dz = np.abs(x - layout.CABIN[0]), np.abs(z - layout.CABIN[1] - 1.4)
-    chance *= (dx > 3.6) | (dz > 4.8)
+    chance *= (dx > 3.4) | (dz > 4.6)
     loop = layout.smooth_line(layout.FIGURE_LOOP, closed=True, step=3)
-    chance *= layout.distance_to_line(points, loop) > 0.8
+    chance *= layout.distance_to_line(points, loop) > 0.7
     chance *= terrain.pond_radius(x, z) > 1.12
-    keep = rng.random(count) < chance * 0.8
-    tall = rng.uniform(0.16, 0.36, count) * (1.0 + 0.5 * np.clip(clump, 0, 1))
-    meadow = np.stack([x, z, tall, np.zeros(count)], 1)[keep]
+    keep = rng.random(count) < chance
+    tall = rng.uniform(0.10, 0.26, count) * (1.0 + 0.7 * np.clip(clump, 0, 1))
+    drift = smoothstep(0.10, 0.45, terrain.noise.fbm(x / 19.0 + 40, z / 19.0, 3))
+    kind = np.where(rng.random(count) < 0.22 * drift, 2.0, 0.0)
+    meadow = np.stack([x, z, tall, kind], 1)[keep]
     ring = rng.uniform(0, 2 * np.pi, 1500)
     reach = rng.uniform(0.90, 1.22, 1500)
     x = layout.POND[0] + layout.POND_RADII[0] * reach * np.cos(ring)
@@ -62,7 +64,8 @@ def grass(terrain: Terrain, seed: int = 0, blades: int = 4) -> Grass:
     order = np.lexsort((rng.random(len(stands)), cell[:, 0], cell[:, 1]))
     stands, cell = stands[order], cell[order]
     n = len(stands)
-    x, z, tall, reed = stands.T
+    x, z, tall, kind = stands.T
+    reed = (kind == 1.0).astype("f8")
     y = np.asarray(terrain.height(x, z))
     root = np.stack([x, y - 0.03, z], 1)[:, None]  # (n, 1, 3)
     turn = rng.uniform(0, 2 * np.pi, (n, blades))
@@ -70,7 +73,7 @@ def grass(terrain: Terrain, seed: int = 0, blades: int = 4) -> Grass:
     out = np.stack([np.cos(turn), 0 * turn, np.sin(turn)], -1)
     side = np.stack([-np.sin(turn), 0 * turn, np.cos(turn)], -1)
     high = tall[:, None, None] * rng.uniform(0.7, 1.15, (n, blades, 1))
-    wide = np.where(reed > 0, 0.022, 0.030)[:, None, None] * rng.uniform(0.8, 1.3, (n, blades, 1))
+    wide = np.where(reed > 0, 0.022, 0.019)[:, None, None] * rng.uniform(0.8, 1.3, (n, blades, 1))
     foot = root + out * away
     lean = np.where(reed > 0, 0.18, 0.55)[:, None, None] * rng.uniform(0.2, 1.0, (n, blades, 1))
     tip = foot + out * high * lean + np.array([0.0, 1.0, 0.0]) * high
@@ -80,6 +83,7 @@ def grass(terrain: Terrain, seed: int = 0, blades: int = 4) -> Grass:
     color = np.where(reed[:, None] > 0, palette.GRASS_LUSH * 1.05, color)
     tint = color[:, None] * (1.0 + 0.22 * rng.uniform(-1, 1, (n, blades, 1)))
     shades = np.stack([tint * 0.62, tint * 0.62, tint * 1.25], 2)
+    _flower_heads(vertices, shades, kind, tip, side, rng)
     starts = np.flatnonzero(np.any(np.diff(cell, axis=0, prepend=cell[:1] - 1) != 0, axis=1))
     counts = np.diff(np.append(starts, n))
     centers = np.array(
@@ -94,3 +98,18 @@ def grass(terrain: Terrain, seed: int = 0, blades: int = 4) -> Grass:
         np.stack([starts * each, counts * each], 1),
         centers,
     )
+
+
+def _flower_heads(
+    vertices: NDArray, shades: NDArray, kind: NDArray, tip: NDArray, side: NDArray,
+    rng: np.random.Generator,
+) -> None:  # fmt: skip
+    """Turn the first blade of each flowering tuft into a small head above the others."""
+    heads = np.flatnonzero(kind == 2.0)
+    size = rng.uniform(0.016, 0.030, (len(heads), 1))
+    top = tip[heads, 0] + np.array([0.0, 0.06, 0.0])
+    vertices[heads, 0, 0] = top - side[heads, 0] * size
+    vertices[heads, 0, 1] = top + side[heads, 0] * size
+    vertices[heads, 0, 2] = top + np.array([0.0, 1.0, 0.0]) * size * 1.4
+    tones = np.array([palette.LINEN, palette.LINEN * (1.0, 0.82, 0.42), palette.HEATHER])
+    shades[heads, 0] = (tones[rng.integers(0, 3, len(heads))] * 1.1)[:, None]

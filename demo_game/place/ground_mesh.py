@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from . import layout, palette
 from .noise import smoothstep
+from .paint import MARGIN
 from .terrain import Terrain
 
-CHUNK = 12  # cells along a chunk's side
+CHUNK = 8  # cells along a chunk's side
 HILL_RINGS = (330.0, 420.0, 520.0, 640.0, 780.0, 950.0, 1150.0, 1400.0, 1700.0, 2100.0, 2600.0)
 HILL_SECTORS = 288
 CHUNK_SECTORS = 24
@@ -108,7 +109,7 @@ def ground_mesh(terrain: Terrain, painted_low: NDArray, painted_high: NDArray) -
         points.astype("f4"),
         normals.astype("f4"),
         wild_color(terrain, x, z).astype("f4"),
-        smoothstep(2.0, 26.0, inside).astype("f4"),
+        smoothstep(2.0, MARGIN, inside).astype("f4"),
         np.concatenate(chunks).astype("u4"),
         np.stack([first, counts], 1),
         np.array([b.min(0) for b in boxes]),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .cabin_solid import Block
 from .figure import PARTS
-from .layout import BIRCH, CONIFER
+from .layout import BIRCH, BUSH, CONIFER
 from .mesh import Builder, Mesh
 from .rocks import sphere
 from .scatter import VARIANTS, Trees
@@ -44,6 +44,8 @@ def _tree_mesh(trees: Trees) -> tuple[NDArray, NDArray]:
             ring = np.stack([0.21 * np.cos(angle), np.full(8, 0.14), 0.21 * np.sin(angle)], 1)
             shell = np.concatenate([ring, [[0.0, 1.0, 0.0]]])
             triangles = np.array([[(k + 1) % 8, k, 8] for k in range(8)])
+        elif kind == BUSH:
+            shell, triangles = points * (0.75, 0.45, 0.75) + (0.0, 0.42, 0.0), faces
         else:
             wide = 0.19 if kind == BIRCH else 0.30
             shell, triangles = points * (wide, 0.30, wide) + (0.0, 0.62, 0.0), faces

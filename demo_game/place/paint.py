@@ -12,9 +12,9 @@ from .noise import Noise, smoothstep
 from .terrain import Terrain
 
 SIZE = 1024  # texels
-LOW = np.array([-150.0, -205.0])  # (x, z), m, of the meadow's map
-HIGH = np.array([150.0, 95.0])
-LAMP_RANGE = 2.0  # lamp light that an alpha of 1 stands for
+LOW = np.array([-165.0, -220.0])  # (x, z), m, of the meadow's map
+HIGH = np.array([165.0, 110.0])
+MARGIN = 14.0  # m, over which the map gives way to plain colours
 DETAIL = 256
 
 
@@ -40,12 +40,10 @@ def _near(x: NDArray, z: NDArray, line: NDArray, reach: float) -> NDArray:
     return found
 
 
-def meadow(
-    terrain: Terrain, shades: Sequence[tuple[float, float, float, float]], lamps: NDArray
-) -> NDArray:
-    """(SIZE, SIZE, 4) u1: square root of the albedo times contact shade, and lamp light.
+def meadow(terrain: Terrain, shades: Sequence[tuple[float, float, float, float]]) -> NDArray:
+    """(SIZE, SIZE, 4) u1: square root of the albedo times contact shade; alpha is full.
 
-    `shades` are (x, z, radius, strength) of what stands on the grass; `lamps` is (SIZE, SIZE).
+    `shades` are (x, z, radius, strength) of what stands on the grass.
     """
     noise = terrain.noise
     x, z = texel_grid()
@@ -78,7 +76,6 @@ def meadow(
     color = _mix(color, palette.GRASS_LUSH * 0.9, smoothstep(1.55, 1.2, shore) * 0.8)
     color = _mix(color, palette.MUD, smoothstep(1.17, 1.05, shore))
     color = _mix(color, palette.BED, smoothstep(1.02, 0.8, q))
-    color = _flowers(color, terrain, x, z, earth + smoothstep(1.3, 1.15, q))
     shade = np.ones(x.shape)
     step = (HIGH - LOW) / SIZE
     for cx, cz, radius, strength in shades:
@@ -90,21 +87,10 @@ def meadow(
     wall = np.hypot(np.maximum(dx - 3.0, 0), np.maximum(np.abs(z - layout.CABIN[1]) - 2.5, 0))
     shade *= 1.0 - 0.5 * smoothstep(1.5, 0.0, wall)
     coded = np.sqrt(np.clip(color * shade[..., None], 0.0, 1.0))
-    out = np.concatenate([coded, np.clip(lamps / LAMP_RANGE, 0, 1)[..., None]], -1)
-    dither = np.random.default_rng(1).random(out.shape)
-    return np.clip(out * 255.0 + dither, 0, 255).astype("u1")
-
-
-def _flowers(
-    color: NDArray, terrain: Terrain, x: NDArray, z: NDArray, bare: NDArray
-) -> NDArray:
-    """Drifts of small pale flowers, a texel each."""
-    rng = np.random.default_rng(5)
-    drift = smoothstep(0.12, 0.5, terrain.noise.fbm(x / 19.0 + 40, z / 19.0, 3))
-    found = (rng.random(x.shape) < 0.10 * drift) & (bare < 0.05)
-    tones = np.array([palette.LINEN, palette.LINEN * (1.0, 0.85, 0.5), palette.CLOTH * 1.1])
-    pick = tones[rng.integers(0, 3, x.shape)]
-    return np.where(found[..., None], color * 0.45 + pick * 0.55, color)
+    dither = np.random.default_rng(1).random(coded.shape)
+    out = np.full((*x.shape, 4), 255, "u1")
+    out[..., :3] = np.clip(coded * 255.0 + dither, 0, 255)
+    return out
 
 
 def detail() -> NDArray:

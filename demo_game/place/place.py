@@ -15,7 +15,7 @@ from demo_game.collision import Box, Post
 from . import bake, cabin, cabin_porch, cabin_room, cabin_solid, figure, flora, layout, paint
 from . import grass as grass_module
 from . import ground_mesh, occluders, props, scatter, windmill
-from .layout import BIRCH, CONIFER
+from .layout import BIRCH, BUSH, CONIFER
 from .mesh import Builder, Mesh, merge, placed, yaw_matrix
 from .rocks import rock
 from .scatter import VARIANTS
@@ -101,6 +101,9 @@ class Place:
         for (x, y, z), tall, shape in zip(
             self.trees.foot.tolist(), self.trees.height, self.trees.shape, strict=True
         ):
+            if shape // VARIANTS == BUSH:
+                found.append(Post((x, z), 0.42 * float(tall), y - 1.0, y + 0.5 * float(tall)))
+                continue
             thick = (0.026 if shape // VARIANTS == CONIFER else 0.032) * tall
             thick *= 0.55 if shape // VARIANTS == BIRCH else 1.0
             found.append(Post((x, z), float(thick), y - 1.0, y + float(tall) * 0.4))
@@ -135,7 +138,7 @@ class Place:
         for x, z in layout.LAMPS:
             head = props.lamp_head(x, self.terrain.height(x, z), z, self._towards_path(x, z))
             found.append(Lamp((head[0], head[1], head[2]), LAMP_COLOR, 14.0))
-        for at, strength in ((cabin_porch.LANTERN, 0.45), (cabin_room.LAMP, 0.6)):
+        for at, strength in ((cabin_porch.LANTERN, 0.45), (cabin_room.LAMP, 0.8)):
             x, y, z = (self.cabin_origin + at).tolist()
             r, g, b = (strength * c for c in LAMP_COLOR)
             found.append(Lamp((x, y, z), (r, g, b), 9.0))
@@ -177,13 +180,13 @@ class Place:
         lights = [(np.array(p) - self.cabin_origin, max(c)) for p, c, _ in self.lamps]
         lights.append((np.array(cabin_room.EMBERS), 0.25))
         moved = placed(np.eye(3), self.cabin_origin)
-        shell = Builder(21)
-        for part in (cabin.foundation, cabin.walls, cabin.roof, cabin_porch.porch,
-                     cabin_porch.steps, cabin_porch.door):  # fmt: skip
+        shell, inside = Builder(21), Builder(22)
+        cabin.walls(shell, inside)
+        cabin.roof(shell, inside)
+        for part in (cabin.foundation, cabin_porch.porch, cabin_porch.steps, cabin_porch.door):
             part(shell)
-        inside = Builder(22)
         cabin_room.room(inside)
-        for name, build, bounce in (("cabin", shell, 0.10), ("room", inside, 0.05)):
+        for name, build, bounce in (("room", inside, 0.30), ("cabin", shell, 0.10)):
             mesh = bake.bake(build.build(), self.blocks, lights, bounce)
             yield name, mesh.moved(moved)
         height = self.terrain.height
@@ -203,7 +206,7 @@ class Place:
         stones = []
         for k, (x, y, z, size, turn) in enumerate(self.rocks):
             matrix = placed(yaw_matrix(turn) * size, (x, y, z))
-            stones.append(rock(300 + k % 5).moved(matrix))
+            stones.append(rock(300 + k % 5, 2 if size > 1.2 else 1).moved(matrix))
         mill = Builder(27)
         windmill.tower(mill)
         for name, mesh in (("lamps", posts.build()), ("fences", fences.build()),
@@ -211,6 +214,8 @@ class Place:
                            ("rocks", merge(stones)),
                            ("windmill", mill.build().moved(self._mill))):  # fmt: skip
             yield name, bake.lamp_lit(mesh, self.lamps)
+        simple = cabin_solid.simple_mesh(self.blocks)
+        yield "cabin_far", bake.bake(simple, self.blocks, lights, 0.10).moved(moved)
         sails = Builder(28)
         sails.part = len(figure.PARTS)
         windmill.sails(sails)
@@ -234,28 +239,21 @@ class Place:
         for (x, _, z), tall, shape in zip(
             self.trees.foot, self.trees.height, self.trees.shape, strict=True
         ):
-            wide = {CONIFER: 0.30, BIRCH: 0.24}.get(int(shape) // VARIANTS, 0.40)
+            wide = {CONIFER: 0.30, BIRCH: 0.24, BUSH: 1.0}.get(int(shape) // VARIANTS, 0.40)
             shades += [(x, z, wide * tall, 0.42), (x, z, 0.09 * tall, 0.5)]
         shades += [(x, z, 0.85 * size, 0.55) for x, _, z, size, _ in self.rocks]
         shades += [(x, z, 0.5, 0.4) for x, z in layout.LAMPS]
         shades += [(x, z, 0.5, 0.4) for line in self.fence_posts for x, z in line]
         shades.append((*layout.WINDMILL, 5.6, 0.75))
-        gx, gz = paint.texel_grid()
-        light = np.zeros(gx.shape)
-        normal = np.array([[0.0, 1.0, 0.0]])
-        for (x, y, z), color, _ in self.lamps[:-1]:
-            near = np.hypot(gx - x, gz - z) < 15.0
-            ground = np.asarray(self.terrain.height(gx[near], gz[near]))
-            points = np.stack([gx[near], ground, gz[near]], 1)
-            one = [((x, y, z), max(color))]
-            light[near] += bake.lamp_light(points, np.repeat(normal, len(points), 0), one, [])
-        return paint.meadow(self.terrain, shades, light)
+        return paint.meadow(self.terrain, shades)
 
     def tree_mesh(self, shape: int, level: int) -> Mesh:
         """Mesh of a tree shape, a metre tall, at a level of detail 0 (near) to 2."""
         kind, variant = divmod(shape, VARIANTS)
         if kind == CONIFER:
             return flora.conifer(100 + variant, level)
+        if kind == BUSH:
+            return flora.bush(400 + variant, level)
         return flora.broadleaf(200 + 10 * kind + variant, level, kind == BIRCH)
 
     def occluders(self) -> Iterator[occluders.Occluder]:

@@ -30,11 +30,11 @@ def sphere(cuts: int) -> tuple[NDArray, NDArray]:
     return points, faces
 
 
-def rock(seed: int) -> Mesh:
+def rock(seed: int, cuts: int = 2) -> Mesh:
     """A boulder about one metre across, flattened, half buried."""
     rng = np.random.default_rng(seed)
     build = Builder(seed)
-    points, faces = sphere(2)
+    points, faces = sphere(cuts)
     shape = np.ones(len(points))
     for _ in range(7):  # planes that cut pieces off
         normal = rng.normal(0, 1, 3)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import layout
-from .layout import BIRCH, BROADLEAF, CONIFER
+from .layout import BIRCH, BROADLEAF, BUSH, CONIFER
 from .noise import smoothstep
 from .terrain import Terrain
 
@@ -57,6 +57,7 @@ def trees(terrain: Terrain, seed: int) -> Trees:
         tall = {CONIFER: (9.0, 17.0), BROADLEAF: (8.0, 12.0), BIRCH: (7.0, 10.0)}[kind]
         rows.append((at[0], at[1], kind, rng.uniform(*tall)))
         placed.append(at)
+    rows += [(x, z, BUSH, tall) for x, z, tall in layout.BUSHES]
     near = len(rows)
     while len(rows) < near + FAR_TREES:
         ring, turn = rng.uniform(0, 1) ** 0.7 * 330.0 + 120.0, rng.uniform(0, 2 * np.pi)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import layout
 from .noise import Noise, smoothstep
 
-FINE = 2.5  # m, cell side where one walks
+FINE = 3.0  # m, cell side where one walks
 GROWTH = 1.24  # of the cell side outside that
 
 
@@ -35,8 +35,8 @@ class Terrain:
         self._dense = [line[::4] for line in (self.path, self.spur, self.track)]
         self.pond_level = float(self._rolling(*np.array([layout.POND]).T)[0]) - 0.35
         self.cabin_level = float(self._rolling(*np.array([layout.CABIN]).T)[0])
-        self.xs = _lines(-60.0, 60.0, 480.0)
-        self.zs = _lines(-180.0, 100.0, 440.0)
+        self.xs = _lines(-57.0, 57.0, 480.0)
+        self.zs = _lines(-180.0, 102.0, 440.0)
         gx, gz = np.meshgrid(self.xs, self.zs)
         self.heights = self.surface(gx, gz)  # (nz, nx)
         self._x, self._z = self.xs.tolist(), self.zs.tolist()

@@ -79,8 +79,9 @@ class FrameBlock:
             row["area_shape"][k] = (*center, 1.0 / a, 1.0 / b)
             turn = (math.cos(heading), math.sin(heading))
             row["area_turn"][k] = (*turn, 0.35 + 0.5 * strength, min(1.0, 0.45 + rate / 4.0))
-            base = min(ceiling, 0.95 * max(a, b))  # low enough to be in view with its rain
-            row["area_cloud"][k] = (base * 1.22, base * 0.40, 1.55, 0.25 + 0.70 * strength)
+            base = min(ceiling, 0.55 * max(a, b))  # low enough to be in view with its rain
+            thick = 0.55 * max(a, b)
+            row["area_cloud"][k] = (base + thick, thick, 1.75, 0.25 + 0.72 * strength)
 
     def upload(self) -> None:
         """Send the block and bind it."""

@@ -16,6 +16,8 @@ VERTEX_DTYPE = np.dtype(
 )  # fmt: skip
 VERTEX_FORMAT = "3f4 4i1 4f1 4f1 2f2"
 VERTEX_NAMES = ("in_position", "in_normal", "in_color", "in_extra", "in_uv")
+PLAIN_FORMAT = "3f4 4i1 4f1 4f1 4x1"  # for programs without grain
+PLAIN_NAMES = VERTEX_NAMES[:4]
 
 
 def _byte(values: NDArray, scale: float = 255.0) -> NDArray:

@@ -11,9 +11,10 @@ from demo_game.place import Place, paint
 from . import geometry
 from .environment import Environment
 from .frame_block import FrameBlock
-from .programs import compile_program, set_uniforms
+from .programs import compile_program, set_matrix, set_uniforms
 
-LAMP_STRENGTH = 1.5  # as in light.glsl
+HEIGHTS = 384  # texels of the height map that shadows are laid by
+DETAIL_REACH = 26.0  # m, up to which the ground has its fine grain
 UNITS = {"shadow_map": 0, "detail_map": 1, "meadow_map": 2, "sky_map": 3}
 
 
@@ -21,13 +22,19 @@ class Ground:
     """Chunks of the ground; those that are wet anywhere take the wet program."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.dry = compile_program(ctx, "ground.vert", "ground.frag")
-        self.wet = compile_program(ctx, "ground.vert", "ground.frag", "WET")
-        block.attach(self.dry, self.wet)
+        self.far = compile_program(ctx, "ground.vert", "ground.frag")
+        self.dry = compile_program(ctx, "ground.vert", "ground.frag", "NEAR")
+        self.wet = compile_program(ctx, "ground.vert", "ground.frag", "NEAR", "WET")
+        self.live = [
+            compile_program(ctx, "ground.vert", "ground.frag", "NEAR", "LIVE", *more)
+            for more in ((), ("WET",))
+        ]
+        self.programs = (self.far, self.dry, self.wet, *self.live)
+        block.attach(*self.programs)
         size = paint.HIGH - paint.LOW
-        for program in (self.dry, self.wet):
+        for program in self.programs:
             window = (*paint.LOW.tolist(), *(1.0 / size).tolist())
-            set_uniforms(program, map_window=window, lamp_scale=LAMP_STRENGTH * paint.LAMP_RANGE)
+            set_uniforms(program, map_window=window)
             set_uniforms(program, **UNITS)
         mesh = place.ground
         data = np.zeros(
@@ -40,15 +47,20 @@ class Ground:
         self._vertices = ctx.buffer(data.tobytes())
         self._indices = ctx.buffer(mesh.indices.tobytes())
         content = [(self._vertices, "3f4 4i1 4f1", "in_position", "in_normal", "in_color")]
-        self._dry_array = ctx.vertex_array(self.dry, content, self._indices)
-        self._wet_array = ctx.vertex_array(self.wet, content, self._indices)
+        short = [(self._vertices, "3f4 4i1 4x1", "in_position", "in_normal")]
+        self._arrays = [ctx.vertex_array(self.far, content, self._indices)]
+        self._arrays += [ctx.vertex_array(p, short, self._indices) for p in self.programs[1:]]
         self._chunks = mesh.chunks
         self._low, self._high = mesh.low, mesh.high
+        inside = (mesh.low[:, [0, 2]] > paint.LOW + paint.MARGIN).all(axis=1)
+        self._painted = inside & (mesh.high[:, [0, 2]] < paint.HIGH - paint.MARGIN).all(axis=1)
         table = place.meadow
         self.map = ctx.texture((table.shape[1], table.shape[0]), 4, table.tobytes())
         self.map.build_mipmaps()
-        self.map.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         self.map.repeat_x = self.map.repeat_y = False
+        self._sharp = _sampler(ctx, moderngl.LINEAR, 0.0)
+        self._soft = _sampler(ctx, moderngl.LINEAR_MIPMAP_NEAREST, 2.0)
+        self._grain = _sampler(ctx, moderngl.LINEAR_MIPMAP_NEAREST, 3.0, True)
 
     def _wet_chunks(self, environment: Environment) -> NDArray:
         if environment.wetness > 0.0:
@@ -61,26 +73,92 @@ class Ground:
                 wet |= np.linalg.norm(middle - center, axis=1) < a * 1.02 + half
         return wet
 
-    def draw(self, planes: NDArray, camera: NDArray, environment: Environment) -> None:
-        """Draw the chunks that are seen, near to far, neighbours in one call."""
+    def _live_chunks(self, spheres: list[tuple[NDArray, float]], sun: NDArray) -> NDArray:
+        """Where something that moves may throw its shadow."""
+        live = np.zeros(len(self._low), bool)
+        for center, radius in spheres:
+            reach = (center[1] - self._low[:, 1] + radius) / max(sun[1], 0.05)
+            end = center - sun * np.minimum(reach, 60.0)[:, None]
+            low, high = np.minimum(center, end) - radius, np.maximum(center, end) + radius
+            apart = (low > self._high) | (high < self._low)
+            live |= ~(apart[:, 0] | apart[:, 2])
+        return live
+
+    def draw(
+        self, planes: NDArray, camera: NDArray, environment: Environment, sun: NDArray,
+        spheres: list[tuple[NDArray, float]],
+    ) -> None:  # fmt: skip
+        """Draw the chunks that are seen, near to far, neighbours in one call; `spheres` are
+        what moves (centre, radius m)."""
         seen = np.flatnonzero(geometry.boxes_seen(planes, self._low, self._high))
         if not len(seen):
             return
-        wet = self._wet_chunks(environment)[seen]
         away = geometry.box_distance(camera, self._low[seen], self._high[seen])
-        new = (np.diff(seen, prepend=-9) != 1) | (np.diff(wet, prepend=wet[0]) != 0)
+        near = self._painted[seen] & (away < DETAIL_REACH)
+        kind = 1 + self._wet_chunks(environment)[seen] + 2 * self._live_chunks(spheres, sun)[seen]
+        kind[~near] = 0
+        new = (np.diff(seen, prepend=-9) != 1) | (np.diff(kind, prepend=kind[0]) != 0)
         starts = np.flatnonzero(new)
         ends = np.append(starts[1:], len(seen))
         nearest = np.minimum.reduceat(away, starts)
-        for k in np.argsort(nearest).tolist():
+        sharp = True
+        self._sharp.use(UNITS["meadow_map"])
+        self._grain.use(UNITS["detail_map"])
+        for k in np.lexsort((nearest, kind[starts] == 0)).tolist():
+            if sharp and kind[starts[k]] == 0:
+                self._soft.use(UNITS["meadow_map"])
+                sharp = False
             first = self._chunks[seen[starts[k]], 0]
-            last = seen[ends[k] - 1]
-            count = self._chunks[last].sum() - first
-            array = self._wet_array if wet[starts[k]] else self._dry_array
-            array.render(vertices=int(count) * 3, first=int(first) * 3)
+            count = self._chunks[seen[ends[k] - 1]].sum() - first
+            self._arrays[kind[starts[k]]].render(vertices=int(count) * 3, first=int(first) * 3)
+        self._soft.clear(UNITS["meadow_map"])
+        self._grain.clear(UNITS["detail_map"])
 
     def release(self) -> None:
         """Give everything back."""
-        for item in (self._dry_array, self._wet_array, self._vertices, self._indices, self.map,
-                     self.dry, self.wet):  # fmt: skip
+        for item in (*self._arrays, self._vertices, self._indices, self.map, self._sharp,
+                     self._soft, self._grain, *self.programs):  # fmt: skip
             item.release()
+
+
+class GroundShadow:
+    """Lays the shadows of what stands still on the painted map, where the sun has moved."""
+
+    def __init__(self, ctx: moderngl.Context, place: Place, painted: moderngl.Texture) -> None:
+        self.ctx, self.map = ctx, painted
+        self._program = compile_program(ctx, "sky_bake.vert", "ground_shadow.frag")
+        size = paint.HIGH - paint.LOW
+        window = (*paint.LOW.tolist(), *(1.0 / size).tolist())
+        set_uniforms(self._program, map_window=window, shadow_map=0, height_map=1)
+        xs = paint.LOW[0] + (np.arange(HEIGHTS) + 0.5) * size[0] / HEIGHTS
+        zs = paint.LOW[1] + (np.arange(HEIGHTS) + 0.5) * size[1] / HEIGHTS
+        heights = np.asarray(place.height(*np.meshgrid(xs, zs)), "f4")
+        self._heights = ctx.texture((HEIGHTS, HEIGHTS), 1, heights.tobytes(), dtype="f4")
+        self._target = ctx.framebuffer([painted])
+        self._target.color_mask = False, False, False, True
+        self._quad = ctx.buffer(np.array([-1, -1, 3, -1, -1, 3], "f4"))
+        self._array = ctx.vertex_array(self._program, [(self._quad, "2f4", "in_position")])
+
+    def update(self, shadow_map: moderngl.Texture, lookup: NDArray) -> None:
+        """Write the map's alpha."""
+        set_matrix(self._program, "shadow_matrix", lookup)
+        self.ctx.enable_only(moderngl.NOTHING)
+        self._target.use()
+        shadow_map.use(0)
+        self._heights.use(1)
+        self._array.render()
+        self.map.build_mipmaps()
+
+    def release(self) -> None:
+        """Give everything back."""
+        for item in (self._array, self._quad, self._target, self._heights, self._program):
+            item.release()
+
+
+def _sampler(
+    ctx: moderngl.Context, filter_: int, levels: float, tiled: bool = False
+) -> moderngl.Sampler:
+    """How a map of the ground is read: few levels only, or all would blur away at a low angle."""
+    sampler = ctx.sampler(repeat_x=tiled, repeat_y=tiled, filter=(filter_, moderngl.LINEAR))
+    sampler.max_lod = levels
+    return sampler

@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from demo_game.place import Place, bake, flora
+from demo_game.place import Place, bake, flora, foliage
 from demo_game.place.scatter import VARIANTS
 
 from . import geometry
@@ -15,7 +15,7 @@ from .geometry import VERTEX_FORMAT, VERTEX_NAMES
 from .programs import compile_program, set_matrix
 from .quality import Quality
 
-SHAPES = 3 * VARIANTS
+SHAPES = 4 * VARIANTS
 INSTANCE_FORMAT = "4f4 4f4/i"
 
 
@@ -23,7 +23,7 @@ class Trees:
     """Every tree; each frame those seen are sorted by shape and level."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.program = compile_program(ctx, "object.vert", "object.frag", "TREES")
+        self.program = compile_program(ctx, "object.vert", "object.frag", "TREES", "LEAVES")
         self.shadow = compile_program(ctx, "shadow.vert", "shadow.frag", "TREES")
         block.attach(self.program)
         trees = place.trees
@@ -39,6 +39,14 @@ class Trees:
         self._rows = np.column_stack(
             [trees.foot, trees.height, np.cos(trees.turn), np.sin(trees.turn), light, tint]
         ).astype("f4")
+        levels = foliage.leaf_levels()
+        size = (levels[0].shape[1], levels[0].shape[0])
+        self.leaves = ctx.texture(size, 2, levels[0].tobytes())
+        self.leaves.build_mipmaps(max_level=len(levels) - 1)
+        for k, data in enumerate(levels):
+            self.leaves.write(data.tobytes(), level=k)
+        self.leaves.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+        self.leaves.repeat_x = self.leaves.repeat_y = False
         self._meshes: list[list[moderngl.Buffer]] = []
         self._instances: list[moderngl.Buffer] = []
         self._arrays: list[moderngl.VertexArray] = []
@@ -105,15 +113,15 @@ class Trees:
             whole.release()
         for item in [*self._arrays, *self._instances, *(b for m in self._meshes for b in m)]:
             item.release()
-        self.program.release()
-        self.shadow.release()
+        for item in (self.leaves, self.program, self.shadow):
+            item.release()
 
 
 class Meadow:
     """Grass near the camera; patches thin out with distance."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.program = compile_program(ctx, "grass.vert", "grass.frag")
+        self.program = compile_program(ctx, "grass.vert", "object.frag")
         block.attach(self.program)
         grass = place.grass
         n = len(grass.vertices)
@@ -136,7 +144,7 @@ class Meadow:
         self.program["reach"] = (reach * 0.6, reach)
         away = np.linalg.norm(self._centers - camera, axis=1)
         side = self._centers @ planes[:, :3].T + planes[:, 3]
-        seen = (side > -12.0).all(axis=1) & (away < reach + 9.0)
+        seen = (side > -8.0).all(axis=1) & (away < reach + 6.0)
         for first, count in self._patches[seen].tolist():
             self._array.render(moderngl.TRIANGLES, vertices=count, first=first)
 

@@ -13,17 +13,18 @@ from demo_game.place import Place, paint
 from . import geometry
 from .environment import Environment
 from .frame_block import FrameBlock, as_matrix, unit
-from .ground import Ground
+from .ground import Ground, GroundShadow
 from .plants import Meadow, Trees
 from .programs import set_uniforms
 from .quality import level
 from .shadows import Shadows
 from .sky import Sky
 from .statics import Actors, Statics
-from .water import Halos, Water
+from .water import Halos, LampPools, Water
 
-SHADOW_UNIT, DETAIL_UNIT, MEADOW_UNIT, SKY_UNIT, MIRROR_UNIT = range(5)
+SHADOW_UNIT, DETAIL_UNIT, MEADOW_UNIT, SKY_UNIT, MIRROR_UNIT, LEAF_UNIT = range(6)
 MOVING_SHADOWS = 140.0  # m from the camera
+SUN_STRENGTH = 2.6  # of the sun against its colour; as in light.glsl
 POND_MIRROR = 70.0  # m, up to which the pond mirrors more than the sky
 
 
@@ -35,21 +36,25 @@ class SceneRenderer:
         self._quality_name, self._quality = quality, level(quality)
         self._block = FrameBlock(ctx)
         self._ground = Ground(ctx, self._block, place)
+        self._ground_shadow = GroundShadow(ctx, place, self._ground.map)
         self._statics = Statics(ctx, self._block, place)
         self._actors = Actors(ctx, self._block, place)
         self._trees = Trees(ctx, self._block, place)
         self._meadow = Meadow(ctx, self._block, place)
         self._water = Water(ctx, self._block, place)
+        self._pools = LampPools(ctx, self._block, place)
         self._halos = Halos(ctx, self._block, place)
         table = paint.detail()
         self._detail = ctx.texture((table.shape[1], table.shape[0]), 4, table.tobytes())
         self._detail.build_mipmaps()
         self._detail.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         self._mirror = ctx.texture((1, 1), 4, b"\0" * 4)
-        units = {"shadow_map": SHADOW_UNIT, "detail_map": DETAIL_UNIT}
-        for program in (self._statics.program, self._actors.program, self._trees.program,
-                        self._meadow.program):  # fmt: skip
+        units = {"shadow_map": SHADOW_UNIT, "detail_map": DETAIL_UNIT, "leaf_map": LEAF_UNIT}
+        solid = (self._statics.program, self._actors.program, self._trees.program,
+                 self._meadow.program)  # fmt: skip
+        for program in solid:
             set_uniforms(program, **units)
+        self._lit = (*solid, *self._ground.programs)
         self._make_sized()
         self._released = False
 
@@ -93,6 +98,9 @@ class SceneRenderer:
         self._update_shadows(sun, camera)
         self._block.fill(time, environment, self._shadows.lookup)
         self._block.upload()
+        full = tuple(SUN_STRENGTH * c for c in environment.sun_color)
+        for program in self._lit:
+            program["sun_full"] = full
         self._sky.paint(camera, environment)
         target.use()
         target.viewport = viewport
@@ -119,9 +127,11 @@ class SceneRenderer:
         self._actors.draw(planes, camera)
         ctx.disable(moderngl.CULL_FACE)
         self._meadow.draw(planes, camera, quality)
+        self._trees.leaves.use(LEAF_UNIT)
         self._trees.draw(planes, camera, quality)
         ctx.enable(moderngl.CULL_FACE)
-        self._ground.draw(planes, camera, environment)
+        sun = unit(environment.sun_direction)
+        self._ground.draw(planes, camera, environment, sun, self._actors.spheres)
         ctx.disable(moderngl.CULL_FACE)
 
     def _draw_blended(
@@ -132,6 +142,7 @@ class SceneRenderer:
         self._bind_maps()
         if self._water.seen(planes, camera) < np.inf:
             self._water.draw((1.0 / viewport[2], 1.0 / viewport[3], 0.0, 0.0))
+        self._pools.draw(planes, camera)
         self._halos.draw(view)
         target.depth_mask = True
         self.ctx.enable_only(moderngl.NOTHING)
@@ -140,6 +151,7 @@ class SceneRenderer:
         shadows = self._shadows
         if shadows.needs(sun):
             shadows.draw_still(sun, self._draw_still_shadows)
+            self._ground_shadow.update(shadows.live, shadows.lookup)
         near = [s for s in self._actors.spheres
                 if np.linalg.norm(s[0] - camera) < MOVING_SHADOWS]  # fmt: skip
         shadows.draw_moving(near, self._actors.draw_shadow)
@@ -153,7 +165,7 @@ class SceneRenderer:
         if self._released:
             return
         self._released = True
-        for item in (self._halos, self._water, self._meadow, self._trees, self._actors,
-                     self._statics, self._ground, self._shadows, self._sky, self._detail,
+        for item in (self._halos, self._pools, self._water, self._meadow, self._trees, self._actors,
+                     self._statics, self._ground_shadow, self._ground, self._shadows, self._sky, self._detail,
                      self._mirror, self._block):  # fmt: skip
             item.release()

@@ -13,7 +13,7 @@ from .programs import compile_program
 LOW = np.array([-64.0, -4.0, -170.0])  # m, what the map covers
 HIGH = np.array([64.0, 22.0, 94.0])
 TURN = 0.9998  # cosine of the sun's turn that asks for a new map
-BIAS = 0.0012  # in the map's depth
+BIAS = 0.00014  # in the map's depth
 
 
 def light_matrix(sun: NDArray) -> NDArray:
@@ -73,7 +73,7 @@ class Shadows:
         target.scissor = (2, 2, self.size - 4, self.size - 4)  # the rim stays lit
         self.ctx.enable_only(moderngl.DEPTH_TEST)
         self.ctx.depth_func = "<="
-        self.ctx.polygon_offset = 1.5, 2.0
+        self.ctx.polygon_offset = 0.6, 1.0
         draw(self.matrix)
         self.ctx.polygon_offset = 0.0, 0.0
         self._live_target.use()
@@ -91,7 +91,7 @@ class Shadows:
         self._restore(self._dirty)
         self.ctx.enable_only(moderngl.DEPTH_TEST)
         self.ctx.depth_func = "<="
-        self.ctx.polygon_offset = 1.5, 2.0
+        self.ctx.polygon_offset = 0.6, 1.0
         self._live_target.scissor = (2, 2, self.size - 4, self.size - 4)
         if boxes:
             draw(self.matrix)

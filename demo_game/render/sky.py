@@ -31,11 +31,12 @@ class Sky:
         self._targets = [ctx.framebuffer([texture]) for texture in self.maps]
         self._bake = compile_program(ctx, "sky_bake.vert", "sky_bake.frag")
         self._show = compile_program(ctx, "sky.vert", "sky.frag")
-        block.attach(self._bake, self._show)
+        block.attach(self._bake)
         self._quad = ctx.buffer(np.array([-1, -1, 3, -1, -1, 3], "f4"))
+        self._grid = ctx.buffer(_grid())
         shape = [(self._quad, "2f4", "in_position")]
         self._bake_array = ctx.vertex_array(self._bake, shape)
-        self._show_array = ctx.vertex_array(self._show, shape)
+        self._show_array = ctx.vertex_array(self._show, [(self._grid, "2f4", "in_position")])
         self._row = 0
         self._painted: NDArray | None = None  # state of the map now shown
         self._state: NDArray = np.zeros(0)
@@ -87,9 +88,17 @@ class Sky:
 
     def release(self) -> None:
         """Give everything back."""
-        for item in (self._show_array, self._bake_array, self._quad, self._show, self._bake,
-                     *self._targets, *self.maps, self._clouds):  # fmt: skip
+        for item in (self._show_array, self._bake_array, self._quad, self._grid, self._show,
+                     self._bake, *self._targets, *self.maps, self._clouds):  # fmt: skip
             item.release()
+
+
+def _grid(columns: int = 24, rows: int = 16) -> NDArray:
+    """Two triangles a cell of the picture, in clip space."""
+    i, j = np.meshgrid(np.arange(columns), np.arange(rows))
+    cell = np.stack([i, j], -1).reshape(-1, 1, 2)
+    corner = np.array([[0, 0], [1, 0], [1, 1], [0, 0], [1, 1], [0, 1]])
+    return ((cell + corner) * (2.0 / columns, 2.0 / rows) - 1.0).astype("f4")
 
 
 def _state(camera: NDArray, env: Environment) -> NDArray:

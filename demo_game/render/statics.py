@@ -11,11 +11,14 @@ from demo_game.place.mesh import merge
 
 from . import geometry
 from .frame_block import FrameBlock
-from .geometry import VERTEX_FORMAT, VERTEX_NAMES
+from .geometry import PLAIN_FORMAT, PLAIN_NAMES, VERTEX_FORMAT, VERTEX_NAMES
 from .programs import compile_program, set_matrix
 
-SMALL = {"room": 70.0, "mailbox": 160.0, "yard": 110.0, "lamps": 260.0, "fences": 190.0,
-         "rocks": 150.0}  # fmt: skip  # m, beyond which they are not drawn
+CABIN_NEAR = 55.0  # m, within which the cabin has all its planks
+# m, from where to where a mesh is drawn; others always are
+SHOWN = {"room": (0.0, CABIN_NEAR), "cabin": (0.0, CABIN_NEAR), "cabin_far": (CABIN_NEAR, 1e9),
+         "mailbox": (0.0, 160.0), "yard": (0.0, 110.0), "lamps": (0.0, 260.0),
+         "fences": (0.0, 190.0), "rocks": (0.0, 150.0)}  # fmt: skip
 PARTS = 12
 ACTOR_REACH = 170.0  # m
 
@@ -24,10 +27,10 @@ class Statics:
     """All static meshes in one buffer, in pieces."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.program = compile_program(ctx, "object.vert", "object.frag")
+        self.program = compile_program(ctx, "object.vert", "object.frag", "GRAIN")
         self.shadow = compile_program(ctx, "shadow.vert", "shadow.frag")
         block.attach(self.program)
-        vertices, indices, ranges, lows, highs, reach = [], [], [], [], [], []
+        vertices, indices, ranges, lows, highs, reach, names = [], [], [], [], [], [], []
         vertex_count = index_count = 0
         for name, mesh in place.meshes.items():
             if mesh.dynamic:
@@ -36,9 +39,10 @@ class Statics:
             vertices.append(geometry.pack(mesh))
             indices.append(pieces.indices + np.uint32(vertex_count))
             ranges.append(pieces.ranges + (index_count, 0))
+            names += [name] * len(pieces.low)
             lows.append(pieces.low)
             highs.append(pieces.high)
-            reach.append(np.full(len(pieces.low), SMALL.get(name, 1e9)))
+            reach.append(np.full((len(pieces.low), 2), SHOWN.get(name, (0.0, 1e9))))
             vertex_count += len(mesh.vertices)
             index_count += pieces.indices.size
         self._vertices = ctx.buffer(np.concatenate(vertices).tobytes())
@@ -46,6 +50,13 @@ class Statics:
         self._ranges = np.concatenate(ranges)
         self._low, self._high = np.concatenate(lows), np.concatenate(highs)
         self._reach = np.concatenate(reach)
+        cabin = np.array([n.startswith(("cabin", "room")) for n in names])
+        whole = self._low[cabin].min(0), self._high[cabin].max(0)  # its meshes change as one
+        self._switch = (
+            np.where(cabin[:, None], whole[0], self._low),
+            np.where(cabin[:, None], whole[1], self._high),
+        )
+        self._shadow_count = index_count - place.meshes["cabin_far"].indices.size
         content = [(self._vertices, VERTEX_FORMAT, *VERTEX_NAMES)]
         self._array = ctx.vertex_array(self.program, content, self._indices)
         content = [(self._vertices, "3f4 16x1", "in_position")]
@@ -54,15 +65,17 @@ class Statics:
     def draw(self, planes: NDArray, camera: NDArray) -> None:
         """Draw what is seen, near to far."""
         away = geometry.box_distance(camera, self._low, self._high)
-        seen = geometry.boxes_seen(planes, self._low, self._high) & (away < self._reach)
+        seen = geometry.boxes_seen(planes, self._low, self._high)
+        switch = geometry.box_distance(camera, *self._switch)
+        seen &= (switch >= self._reach[:, 0]) & (switch < self._reach[:, 1])
         chosen = np.flatnonzero(seen)
         for first, count in self._ranges[chosen[np.argsort(away[chosen])]].tolist():
             self._array.render(vertices=count, first=first)
 
     def draw_shadow(self, matrix: NDArray) -> None:
-        """Draw all of it from the sun."""
+        """Draw all of it from the sun; the simple cabin comes last and is left out."""
         set_matrix(self.shadow, "light_matrix", matrix)
-        self._shadow_array.render()
+        self._shadow_array.render(vertices=self._shadow_count)
 
     def release(self) -> None:
         """Give everything back."""
@@ -84,7 +97,7 @@ class Actors:
         self._indices = ctx.buffer(mesh.indices.tobytes())
         self._split = place.meshes["figure"].indices.size
         self._total = mesh.indices.size
-        content = [(self._vertices, VERTEX_FORMAT, *VERTEX_NAMES)]
+        content = [(self._vertices, PLAIN_FORMAT, *PLAIN_NAMES)]
         self._array = ctx.vertex_array(self.program, content, self._indices)
         content = [(self._vertices, "3f4 8x1 4f1 4x1", "in_position", "in_extra")]
         self._shadow_array = ctx.vertex_array(self.shadow, content, self._indices)

@@ -1,4 +1,4 @@
-"""The pond's still water, and the lamps' glow: what is blended over the rest."""
+"""The pond's still water, the lamps' light on the ground and their glow: what is blended over the rest."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from . import geometry
 from .frame_block import FrameBlock
 from .programs import compile_program, set_matrix, set_uniforms
 
+POOL_RADIUS = 9.0  # m
 UNITS = {"detail_map": 1, "sky_map": 3, "mirror_map": 4}
 
 
@@ -48,6 +49,46 @@ class Water:
     def release(self) -> None:
         """Give everything back."""
         for item in (self._array, self._vertices, self._indices, self.program):
+            item.release()
+
+
+class LampPools:
+    """The lamps' light on the ground: the ground around them drawn again, added."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
+        self.ctx = ctx
+        self.program = compile_program(ctx, "lamp_pool.vert", "lamp_pool.frag")
+        block.attach(self.program)
+        self.program["tint"] = (0.55, 0.40, 0.22)
+        mesh = place.ground
+        middle = mesh.vertices[mesh.indices].mean(1)
+        rows, self._ranges, first = [], [], 0
+        for lamp in place.lamps[:-1]:
+            x, _, z = lamp.position
+            close = np.hypot(middle[:, 0] - x, middle[:, 2] - z) < POOL_RADIUS
+            points = mesh.vertices[mesh.indices[close].ravel()]
+            light = np.broadcast_to((*lamp.position, max(lamp.color)), (len(points), 4))
+            rows.append(np.hstack([points, light]).astype("f4"))
+            self._ranges.append((first, len(points)))
+            first += len(points)
+        self._centers = np.array([lamp.position for lamp in place.lamps[:-1]])
+        self._vertices = ctx.buffer(np.concatenate(rows).tobytes())
+        content = [(self._vertices, "3f4 4f4", "in_position", "in_lamp")]
+        self._array = ctx.vertex_array(self.program, content)
+
+    def draw(self, planes: NDArray, camera: NDArray) -> None:
+        """Draw those that are seen; blending adds, depth is tested."""
+        self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
+        self.ctx.blend_func = moderngl.ONE, moderngl.ONE
+        side = self._centers @ planes[:, :3].T + planes[:, 3]
+        away = np.linalg.norm(self._centers - camera, axis=1)
+        for k in np.flatnonzero((side > -POOL_RADIUS).all(axis=1) & (away < 150.0)).tolist():
+            first, count = self._ranges[k]
+            self._array.render(moderngl.TRIANGLES, vertices=count, first=first)
+
+    def release(self) -> None:
+        """Give everything back."""
+        for item in (self._array, self._vertices, self.program):
             item.release()
 
 

@@ -6,12 +6,12 @@ in vec3 in_position;
 in vec4 in_color;   // square root of the albedo, w: 1 at the tip
 in vec4 in_root;    // foot of the tuft, w: lamp light
 
+uniform vec3 sun_full;
 uniform vec2 reach; // m, where blades begin to shrink, where they are gone
 
 out vec3 v_shade;
 out vec3 v_sun;
 out vec3 v_shadow;
-out vec4 v_haze;
 
 void main() {
     vec3 root = in_root.xyz;
@@ -24,9 +24,9 @@ void main() {
     vec3 albedo = in_color.rgb * in_color.rgb * (1.0 - 0.28 * cover.y);
     vec3 ambient = sky_light(vec3(0.0, 1.0, 0.0), cover.x) * (0.62 + 0.38 * in_color.w);
     ambient += LAMP_COLOR * (LAMP_STRENGTH * in_root.w * 4.0 * sun_direction.w);
-    v_shade = albedo * ambient;
-    v_sun = albedo * sun_light(0.25 + 0.75 * sun_direction.y, cover.x);
+    vec4 air = haze(p);
+    v_shade = albedo * ambient * air.a + air.rgb;
+    v_sun = albedo * sun_full * (sun_share(0.25 + 0.75 * sun_direction.y, cover.x) * air.a);
     v_shadow = (shadow_matrix * vec4(root + vec3(0.0, 0.25, 0.0), 1.0)).xyz;
-    v_haze = haze(p);
     gl_Position = view_projection * vec4(p, 1.0);
 }

@@ -1,6 +1,5 @@
 // Light at a vertex. n unit normal, p world position; all linear RGB.
-const vec3 LAMP_COLOR = vec3(1.0, 0.62, 0.30);
-const float SUN_STRENGTH = 2.7;   // of the sun against its colour
+const vec3 LAMP_COLOR = vec3(1.0, 0.66, 0.36);
 const float LAMP_STRENGTH = 1.5;
 
 // x: share of daylight the rain clouds take at p, y: wetness they bring.
@@ -18,21 +17,23 @@ vec2 rain_cover(vec2 p) {
 }
 
 vec3 sky_light(vec3 n, float dim) {
-    vec3 above = mix(horizon_color.rgb, zenith_color.rgb, 0.45) * (1.0 - 0.35 * dim);
-    vec3 below = ground_color.rgb * (0.55 + 0.45 * sun_direction.y) * (1.0 - 0.3 * dim);
+    vec3 above = mix(horizon_color.rgb, zenith_color.rgb, 0.5) * (0.92 - 0.30 * dim);
+    vec3 below = ground_color.rgb * (0.45 + 0.75 * sun_direction.y) * (1.0 - 0.3 * dim);
     return mix(below, above, n.y * 0.5 + 0.5);
 }
 
-vec3 sun_light(float facing, float dim) {
-    return sun_color.rgb * (SUN_STRENGTH * facing * (1.0 - 0.88 * dim));
+float sun_share(float facing, float dim) {
+    return facing * (1.0 - 0.90 * dim);
 }
 
-// Premultiplied haze: colour * a + rgb. The haze glows towards the sun.
+// Premultiplied haze: colour * a + rgb. It glows towards the sun, and is a little darker and
+// bluer than the sky at the horizon, so that hills stand out from it.
 vec4 haze(vec3 p) {
     vec3 way = p - camera.xyz;
-    float distance = length(way);
-    float thin = exp(-distance * horizon_color.w);
-    float glow = max(dot(way, sun_direction.xyz) / max(distance, 0.01), 0.0);
-    vec3 color = fog_color.rgb + sun_color.rgb * (0.32 * glow * glow * glow) * (1.0 - zenith_color.w);
+    float away = length(way);
+    float thin = exp(-away * horizon_color.w);
+    float glow = max(dot(way, sun_direction.xyz) / max(away, 0.01), 0.0);
+    vec3 color = fog_color.rgb * vec3(0.78, 0.84, 0.92);
+    color += sun_color.rgb * (0.30 * glow * glow * glow * (1.0 - zenith_color.w));
     return vec4(color * (1.0 - thin), thin);
 }

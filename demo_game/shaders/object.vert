@@ -16,17 +16,23 @@ in vec4 in_turn;      // cos, sin, lamp light, tint
 uniform mat4 parts[12];
 uniform vec4 part_light;  // x lamp light at the figure
 #endif
+uniform vec3 sun_full;
 
-out vec3 v_shade;
-out vec3 v_sun;
+out vec3 v_shade;     // light of sky and lamps, haze included
+out vec3 v_sun;       // light of the sun where it is not in shadow
 out vec3 v_shadow;
-out vec4 v_haze;
+#if defined(GRAIN) || defined(LEAVES)
 out vec2 v_uv;
-flat out vec4 v_mask;
+#endif
+#ifdef GRAIN
+flat out vec2 v_mask; // wood, stone
+#endif
 
 void main() {
     vec3 n = in_normal.xyz;
     vec3 p = in_position;
+    float material = in_extra.x * 255.0;
+    float leaf = step(1.5, material) * step(material, 2.5);
     float lamp = in_extra.z * 4.0;
     vec3 albedo = in_color.rgb * in_color.rgb;
 #ifdef TREES
@@ -40,7 +46,7 @@ void main() {
     float bend = sway * sway * wind.z;
     p.xz += wind.xy * (bend * (0.55 + 0.45 * sin(phase)));
     p.xz += vec2(sin(phase * 2.7 + in_position.x * 9.0), cos(phase * 2.3)) * (0.02 * bend);
-    albedo *= in_turn.w;
+    albedo *= mix(1.0, in_turn.w, leaf);
     lamp = in_turn.z;
 #endif
 #ifdef PARTS
@@ -52,27 +58,31 @@ void main() {
     n = normalize(n);
     float sky = in_color.a;
     vec2 cover = rain_cover(p.xz);
-    float material = in_extra.x * 255.0;
-    float leaf = step(1.5, material) * step(material, 2.5);
     float facing = dot(n, sun_direction.xyz);
-    facing = mix(max(facing, 0.0), max((facing + 0.45) / 1.45, 0.0), leaf);
+    facing = mix(max(facing, 0.0), max((facing + 0.40) / 1.40, 0.0), leaf);
     float wet = cover.y * smoothstep(0.30, 0.75, sky);
     albedo *= 1.0 - 0.42 * wet * (0.55 + 0.45 * n.y) * (1.0 - 0.5 * leaf);
     vec3 ambient = sky_light(n, cover.x) * sky;
     ambient += LAMP_COLOR * (LAMP_STRENGTH * lamp * sun_direction.w);
-    v_shade = albedo * ambient;
-    v_sun = albedo * sun_light(facing, cover.x) * mix(1.0, 0.35 + 0.65 * sky, leaf);
+    vec3 shade = albedo * ambient;
+    vec3 sun = albedo * sun_full * (sun_share(facing, cover.x) * mix(1.0, 0.3 + 0.7 * sky, leaf));
     vec3 view = normalize(camera.xyz - p);
     float rim = 1.0 - max(dot(n, view), 0.0);
     float gloss = wet * max(n.y, 0.0) * (0.03 + 0.5 * rim * rim * rim * rim) * (1.0 - 0.6 * leaf);
-    v_shade += mix(horizon_color.rgb, zenith_color.rgb, 0.3) * gloss * (1.0 - 0.35 * cover.x);
+    shade += mix(horizon_color.rgb, zenith_color.rgb, 0.3) * gloss * (1.0 - 0.35 * cover.x);
     if (material > 3.5) {
-        v_shade = albedo * (0.5 + 3.6 * sun_direction.w);
-        v_sun = vec3(0.0);
+        shade = albedo * (0.5 + 3.6 * sun_direction.w);
+        sun = vec3(0.0);
     }
-    v_mask = vec4(step(material, 0.5), step(0.5, material) * step(material, 1.5), leaf, 0.0);
+    vec4 air = haze(p);
+    v_shade = shade * air.a + air.rgb;
+    v_sun = sun * air.a;
+#ifdef GRAIN
+    v_mask = vec2(step(material, 0.5), step(0.5, material) * step(material, 1.5)) * 0.9;
+#endif
+#if defined(GRAIN) || defined(LEAVES)
     v_uv = in_uv;
-    v_shadow = (shadow_matrix * vec4(p + n * (0.05 + 0.25 * leaf), 1.0)).xyz;
-    v_haze = haze(p);
+#endif
+    v_shadow = (shadow_matrix * vec4(p + n * (0.04 + 0.25 * leaf), 1.0)).xyz;
     gl_Position = view_projection * vec4(p, 1.0);
 }

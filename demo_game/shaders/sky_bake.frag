@@ -1,6 +1,7 @@
 // Paints the sky's map: gradient, sun, drifting clouds, and a heavy cloud above every rain area.
 #include "frame.glsl"
 #include "sky_map.glsl"
+#include "tone.glsl"
 
 uniform sampler2D cloud_map;
 
@@ -11,41 +12,45 @@ float hash(vec2 p) {
     return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);
 }
 
+// Clear air: gradient, the sun and its glow.
 vec3 air(vec3 d) {
     float up = max(d.y, 0.0);
-    vec3 color = mix(horizon_color.rgb, zenith_color.rgb, 1.0 - exp(-up * 2.6));
+    vec3 color = mix(horizon_color.rgb, zenith_color.rgb, 1.0 - exp(-up * 2.8));
     float s = max(dot(d, sun_direction.xyz), 0.0);
     float s4 = s * s * s * s;
-    float veil = 1.0 - 0.75 * zenith_color.w;
-    vec3 glow = sun_color.rgb * veil;
-    color += glow * (0.10 * s * s + 0.22 * s4 * s4 + 0.55 * pow(s, 90.0) + 9.0 * pow(s, 2600.0));
-    return mix(color, fog_color.rgb + glow * (0.32 * s * s * s), exp(-up * 16.0) * 0.65);
+    vec3 glow = sun_color.rgb * (1.0 - 0.75 * zenith_color.w);
+    color += glow * (0.06 * s * s + 0.16 * s4 * s4 + 0.40 * pow(s, 90.0) + 9.0 * pow(s, 2600.0));
+    vec3 mist = fog_color.rgb + glow * (0.30 * s * s * s);
+    return mix(color, mist, exp(-up * 14.0) * 0.7);
 }
 
-// Two layers on flat ceilings, bent down to the horizon. rgb colour, a cover.
+// Clouds on flat ceilings, bent down to the horizon. rgb colour, a cover.
 vec4 layer(vec3 d, float cover) {
-    float up = max(d.y, 0.0) + 0.10;
+    float up = max(d.y, 0.0) + 0.09;
     vec2 drift = wind.xy * camera.w;
     vec2 p = d.xz / up;
-    vec2 q = p * 0.075 + drift * 0.00035;
+    vec2 q = p * 0.062 + drift * 0.00035;
     float low = texture(cloud_map, q).r;
-    float fine = texture(cloud_map, q * 3.7 + 0.31).r;
-    float density = low * 0.72 + fine * 0.28;
-    float edge = mix(0.66, 0.30, cover);
-    float body = smoothstep(edge, edge + 0.30, density);
-    float ahead = texture(cloud_map, q - sun_direction.xz * 0.022).r;
-    float lit = clamp(0.62 + 2.6 * (low - ahead), 0.0, 1.0);
+    float fine = texture(cloud_map, q * 3.3 + 0.31).r;
+    float finer = texture(cloud_map, q * 9.1 + 0.77).r;
+    float density = low * 0.66 + fine * 0.25 + finer * 0.09;
+    float edge = mix(0.64, 0.26, cover);
+    float body = smoothstep(edge, edge + 0.26, density);
+    float ahead = texture(cloud_map, q + sun_direction.xz * 0.020).r;
+    float lit = clamp(0.5 + 3.2 * (low - ahead) + 1.2 * (0.5 - fine), 0.0, 1.0);
     float s = max(dot(d, sun_direction.xyz), 0.0);
-    vec3 bright = horizon_color.rgb * 0.78 + sun_color.rgb * (0.42 + 0.5 * s * s * s * s);
-    vec3 dark = mix(zenith_color.rgb, horizon_color.rgb, 0.45) * 0.72;
-    vec3 color = mix(bright, dark, clamp(0.15 + 0.8 * body * (0.4 + 0.6 * cover), 0.0, 1.0));
-    color = mix(dark, color, 0.35 + 0.65 * lit) * (1.0 - 0.25 * cover * body);
-    float wisp = smoothstep(0.52, 0.80, texture(cloud_map, p * 0.030 + drift * 0.00018).g);
-    float far = smoothstep(0.0, 0.22, d.y);
+    vec3 sky = mix(horizon_color.rgb, zenith_color.rgb, 0.45);
+    vec3 grey = mix(sky, vec3(dot(sky, vec3(0.3, 0.6, 0.1))), 0.4);
+    vec3 bright = grey * 0.85 + sun_color.rgb * (0.40 + 0.55 * s * s * s * s);
+    vec3 dark = grey * mix(0.74, 0.50, body);
+    float thick = smoothstep(0.2, 1.0, body) * (0.35 + 0.65 * cover);
+    vec3 color = mix(bright, dark, clamp(thick + 0.55 * (1.0 - lit), 0.0, 1.0));
+    float wisp = smoothstep(0.48, 0.80, texture(cloud_map, p * 0.030 + drift * 0.00018).g);
+    float far = smoothstep(0.015, 0.20, d.y);
     body *= far;
-    wisp *= 0.38 * far * (1.0 - body) * (1.0 - 0.6 * cover);
+    wisp *= 0.40 * far * (1.0 - body) * (1.0 - 0.6 * cover);
     vec3 mixed = (color * body + bright * wisp) / max(body + wisp, 0.001);
-    return vec4(mixed, min(body * 0.94 + wisp, 1.0));
+    return vec4(mixed, min(body * 0.95 + wisp, 1.0));
 }
 
 // The cloud that a rain area hangs from: a flattened ellipsoid with a torn edge.
@@ -54,34 +59,36 @@ vec4 storm(vec3 d, int i) {
     vec4 cloud = area_cloud[i];
     vec2 turn = area_turn[i].xy;
     vec2 off = camera.xz - shape.xy;
-    vec2 o = vec2(off.x * turn.x - off.y * turn.y, off.x * turn.y + off.y * turn.x);
-    vec2 w = vec2(d.x * turn.x - d.z * turn.y, d.x * turn.y + d.z * turn.x);
-    vec3 origin = vec3(o * shape.zw / cloud.z, (camera.y - cloud.x) / cloud.y).xzy;
-    vec3 way = vec3(w * shape.zw / cloud.z, d.y / cloud.y).xzy;
+    vec2 o = vec2(off.x * turn.x - off.y * turn.y, off.x * turn.y + off.y * turn.x) * shape.zw;
+    vec2 w = vec2(d.x * turn.x - d.z * turn.y, d.x * turn.y + d.z * turn.x) * shape.zw;
+    vec3 origin = vec3(o.x / cloud.z, (camera.y - cloud.x) / cloud.y, o.y / cloud.z);
+    vec3 way = vec3(w.x / cloud.z, d.y / cloud.y, w.y / cloud.z);
     float along = max(-dot(origin, way) / dot(way, way), 0.0);
     vec3 near = origin + way * along;
     float miss = length(near);
-    vec2 p = near.xz * 0.33 + vec2(d.x, d.z) / (abs(d.y) + 0.35) * 0.16 + wind.xy * camera.w * 0.0006;
+    vec2 side = d.xz / (abs(d.y) + 0.55);
+    vec2 p = near.xz * 0.22 + side * 0.15 + wind.xy * (camera.w * 0.0006);
     float low = texture(cloud_map, p).r;
-    float fine = texture(cloud_map, p * 3.1 + 0.17).r;
-    float torn = (low - 0.5) * 0.75 + (fine - 0.5) * 0.30;
-    float body = 1.0 - smoothstep(0.62, 1.18, miss + torn);
+    float fine = texture(cloud_map, p * 2.9 + 0.17).r;
+    float finer = texture(cloud_map, p * 7.3 + 0.43).r;
+    float torn = (low - 0.5) * 0.85 + (fine - 0.5) * 0.40 + (finer - 0.5) * 0.16;
+    float body = 1.0 - smoothstep(0.58, 1.08, miss + torn);
     // The shaft below, a darker air; the rain itself is drawn over it.
-    vec2 flat_way = normalize(d.xz + 1e-5);
-    vec2 fw = vec2(flat_way.x * turn.x - flat_way.y * turn.y, flat_way.x * turn.y + flat_way.y * turn.x);
-    vec2 fo = o * shape.zw, fd = fw * shape.zw;
-    float reach = max(-dot(fo, fd) / dot(fd, fd), 0.0);
-    float aside = length(fo + fd * reach);
-    float column = (1.0 - smoothstep(0.75, 1.7, aside + torn * 0.5)) * smoothstep(-0.05, 0.05, d.y);
-    column *= 1.0 - smoothstep(0.0, 1.0, d.y * 1.4);
-    vec3 grey = mix(zenith_color.rgb, horizon_color.rgb, 0.5);
-    grey = mix(grey, vec3(dot(grey, vec3(0.3, 0.6, 0.1))), 0.45);
-    float top = clamp(near.y * 0.8 + 0.15 + torn, 0.0, 1.0);
-    float side = max(dot(normalize(vec3(near.x, 0.4, near.z)), sun_direction.xyz), 0.0);
-    vec3 color = grey * (0.30 + 0.34 * low + 0.10 * fine);
-    color += (sun_color.rgb * 0.30 + grey * 0.30) * top * (0.25 + 0.75 * side);
-    float share = max(body, 0.50 * column);
-    color = mix(grey * 0.50, color, body / max(share, 0.001));
+    float flat_length = max(length(d.xz), 1e-4);
+    vec2 fd = w / flat_length;
+    float reach = max(-dot(o, fd) / dot(fd, fd), 0.0);
+    float aside = length(o + fd * reach);
+    float streak = (texture(cloud_map, vec2(aside * 0.6 + d.x * 0.4, d.y * 0.06)).g - 0.5) * 0.4;
+    float column = 1.0 - smoothstep(0.80, 1.45, aside + streak);
+    column *= 1.0 - smoothstep(0.15, 0.80, d.y);
+    vec3 sky = mix(zenith_color.rgb, horizon_color.rgb, 0.5);
+    vec3 grey = mix(sky, vec3(dot(sky, vec3(0.3, 0.6, 0.1))) * vec3(0.96, 1.0, 1.06), 0.6);
+    float top = smoothstep(-0.25, 0.9, near.y + torn * 0.8);
+    float faced = 0.5 + 0.5 * dot(normalize(vec3(near.x, 0.35, near.z)), sun_direction.xyz);
+    vec3 color = grey * (0.26 + 0.42 * low * low + 0.16 * (fine - 0.5) + 0.12 * (finer - 0.5));
+    color += (sun_color.rgb * 0.42 * faced * faced + grey * 0.20) * top * (0.5 + fine);
+    float share = max(body, 0.80 * column);
+    color = mix(grey * (0.27 + 0.20 * streak), color, body / max(share, 0.001));
     return vec4(color, share * cloud.w);
 }
 
@@ -96,8 +103,6 @@ void main() {
         vec4 cloud = storm(d, i);
         color = mix(color, cloud.rgb, cloud.a);
     }
-    float mist = exp(-max(d.y, 0.0) * 22.0) * 0.55;
-    color = mix(color, fog_color.rgb, mist * 0.6);
-    vec3 coded = sqrt(clamp(color * 0.5, 0.0, 1.0));
-    out_color = vec4(coded + (hash(gl_FragCoord.xy) - 0.5) / 255.0, 1.0);
+    color = mix(color, fog_color.rgb, exp(-max(d.y, 0.0) * 24.0) * 0.35);
+    out_color = vec4(tone(color) + (hash(gl_FragCoord.xy) - 0.5) / 255.0, 1.0);
 }

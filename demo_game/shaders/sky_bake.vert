@@ -1,3 +1,4 @@
+// A triangle over the whole target.
 in vec2 in_position;
 out vec2 v_uv;
 
