@@ -119,7 +119,7 @@ class StreakCapture:
         data["container_axis"], data["container_shape"] = law.container_axis, law.container_shape
         data["area_axis"], data["area_shape"] = law.area_axis, law.area_shape
         data["drop_law"] = law.law
-        data["drop_load"] = (law.load, law.count, law.fade, 0.0)
+        data["drop_load"] = (law.load, law.count, law.fade, law.density)
         data["drop_look"] = (law.size_maximum, law.size_scale, law.width, law.opacity)
         for block in (self._view, self._draw):
             block.upload()

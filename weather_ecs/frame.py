@@ -60,6 +60,7 @@ class DropLook:
     size_maximum: float = 8.0  # Eq. 3's factor at the container's rim
     exposure: float = 1.0 / 24.0  # s, length of the path a streak shows
     width: float = 5.0  # factor on the drop's diameter, look only
+    density: float = 4.0  # factor on how much the drops cover: 1 is what nature shows
     opacity: float = 0.6  # greatest opacity of one streak
     veil: float = 2.5  # factor on the veil's extinction, look only
     fastest: float = 8.0  # m/s, of the observer's own speed that slants the streaks at most

@@ -50,7 +50,7 @@ RAIN_DRAW = UniformBlock(
     ("area_axis", "vec4"),
     ("area_shape", "vec4"),  # a, b, soft edge, ceiling
     ("drop_law", "vec4"),
-    ("drop_load", "vec4"),  # load, count, 1 / width of the count's fade
+    ("drop_load", "vec4"),  # load, count, 1 / width of the count's fade, density (look)
     ("drop_look", "vec4"),  # Eq. 3's maximum, size scale, width, opacity
 )
 

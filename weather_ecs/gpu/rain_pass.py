@@ -167,7 +167,7 @@ class RainPass:
         data["area_axis"], data["area_shape"] = container.area_axis, container.area_shape
         data["drop_law"] = container.law
         fade = 1.0 / max(_COUNT_FADE * container.count, 1.0)
-        data["drop_load"] = (container.load, container.count, fade, 0.0)
+        data["drop_load"] = (container.load, container.count, fade, look.density)
         data["drop_look"] = (
             look.size_maximum, container.size_scale, look.width, look.opacity,
         )  # fmt: skip

@@ -20,7 +20,7 @@ def encode(linear: NDArray) -> NDArray:
 def drop_light(sky: SkyLight) -> NDArray:
     """What a drop shows, linear RGB: mostly the sky, as it turns the picture upside down."""
     zenith, horizon = np.array(sky.zenith_color), np.array(sky.horizon_color)
-    return 0.35 * zenith + 0.55 * horizon + 0.10 * np.array(sky.ground_color)
+    return 0.25 * zenith + 0.70 * horizon + 0.05 * np.array(sky.ground_color)
 
 
 def veil_light(sky: SkyLight) -> NDArray:

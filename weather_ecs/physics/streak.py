@@ -60,6 +60,7 @@ class StreakLaw:
     size_scale: float  # of drops as a whole, width and length
     width: float  # factor on the drop's diameter
     opacity: float  # greatest of one streak
+    density: float = 1.0  # factor on how much the drops cover; 1 is what nature shows
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +125,7 @@ def streaks(p: NDArray, v: NDArray, birth: NDArray, view: StreakView, law: Strea
     diameter = diameters(birth[:, 3], law.law) * 1e-3
     width = diameter * size_factor(d, law.size_maximum) * law.width * law.size_scale
     area = width * (np.linalg.norm(path, axis=1) + width)
-    solid = np.minimum(0.25 * math.pi * diameter**2 * weight / area, law.opacity)
+    solid = np.minimum(0.25 * math.pi * diameter**2 * weight * law.density / area, law.opacity)
 
     pixels = width * view.pixels / np.where(drawn, head[:, 3], 1.0)
     near = np.clip((head[:, 3] - 0.15) / 0.55, 0.0, 1.0)

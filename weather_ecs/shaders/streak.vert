@@ -41,7 +41,7 @@ void main()
     path *= drop_look.y;  // far drops are drawn larger in all directions
     tail = view_projection * vec4(p - path, 1.0);
     if (tail.w < 0.1) return;
-    float covered = 0.785398 * diameter * diameter * weight;
+    float covered = 0.785398 * diameter * diameter * weight * drop_load.w;
     float opacity = min(covered / (width * (length(path) + width)), drop_look.w);
 
     float pixels = width * camera_position.w / head.w;

@@ -240,7 +240,7 @@ def shown_distance(look: DropLook, rain_rate: float, count: int) -> float:
     width = diameter * size_factor(d, look.size_maximum) * look.width
     length = 6.0 * look.exposure
     load = float(drop_density(rain_rate)) * look.height * math.pi * look.reach**2
-    load /= 2.0 * max(count, 1)
+    load *= look.density / (2.0 * max(count, 1))
     wanted = load * d / weight_shape(d) * 0.7854 * diameter**2 / (width * (length + width))
     share = np.minimum(look.opacity / np.maximum(wanted, 1e-9), 1.0)
     # Near its rim the container thins out, whatever a streak could show.
