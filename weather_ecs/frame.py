@@ -59,8 +59,8 @@ class DropLook:
     margin: float = 0.75  # m, observer's movement that leaves the container where it is
     size_maximum: float = 8.0  # Eq. 3's factor at the container's rim
     exposure: float = 1.0 / 24.0  # s, length of the path a streak shows
-    width: float = 5.0  # factor on the drop's diameter, look only
-    density: float = 4.0  # factor on how much the drops cover: 1 is what nature shows
+    width: float = 4.0  # factor on the drop's diameter, look only
+    density: float = 6.0  # factor on how much the drops cover: 1 is what nature shows
     opacity: float = 0.6  # greatest opacity of one streak
     veil: float = 2.5  # factor on the veil's extinction, look only
     fastest: float = 8.0  # m/s, of the observer's own speed that slants the streaks at most
@@ -96,6 +96,24 @@ class OccluderData:
 
 
 @dataclass(frozen=True, slots=True)
+class RippleData:
+    """Water on which rain makes rings; see `components.RippleSurface`."""
+
+    key: int  # stable for the life of the surface; only ever compared
+    center: tuple[float, float, float]  # m
+    size: tuple[float, float]  # m, along and across the heading
+    heading: float  # rad, counter-clockwise seen from above
+    ellipse: bool  # only the ellipse inside the rectangle is water
+    cell: float  # m
+    speed: float  # m/s, of the rings
+    damping: int
+    amplitude: float  # factor on the height of the waves
+    color: tuple[float, float, float]  # linear RGB
+    clarity: float  # m
+    draw: bool
+
+
+@dataclass(frozen=True, slots=True)
 class FrameData:
     """One frame's weather, world axes, SI units unless a field says otherwise."""
 
@@ -108,6 +126,7 @@ class FrameData:
     look: DropLook = field(default_factory=DropLook)
     occluders: tuple[OccluderData, ...] = ()
     splash: SplashLook | None = None  # None: no splashes
+    ripples: tuple[RippleData, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,8 +20,8 @@ class RainContainer(Component):
     margin: float = 0.75  # m, 0 to 100, movement of the observer that leaves it where it is
     size_maximum: float = 8.0  # 1 to 50, growth of a drop at the container's rim (Eq. 3)
     exposure: float = 1.0 / 24.0  # s, 1e-4 to 1, of fall that a streak shows
-    width: float = 5.0  # 0.05 to 20, factor on the drop's diameter
-    density: float = 4.0  # 0 to 100, factor on how much the drops cover: 1 is what nature shows
+    width: float = 4.0  # 0.05 to 20, factor on the drop's diameter
+    density: float = 6.0  # 0 to 100, factor on how much the drops cover: 1 is what nature shows
     opacity: float = 0.6  # 0 to 1, greatest opacity of one streak
     veil: float = 2.5  # 0 to 10, factor on the extinction of the rain beyond the container
     fastest: float = 8.0  # m/s, 0 to 1000, of the observer's own speed that slants the streaks
