@@ -46,6 +46,18 @@ def test_every_component_is_described() -> None:
         assert not missing, (name, missing)
 
 
+def test_defaults_in_the_table_are_true() -> None:
+    checked = 0
+    for name, row in re.findall(r"^\| `([A-Z]\w+)` \|(.*)$", README, re.M):
+        for field in fields(getattr(components, name)):
+            written = re.search(rf"`{field.name}` ([\d.]+)(?:/([\d.]+))?(?! to)", row)
+            if written and isinstance(field.default, int | float):
+                value = float(written[1]) / float(written[2] or 1)
+                assert value == pytest.approx(field.default), (name, field.name)
+                checked += 1
+    assert checked > 10
+
+
 def test_every_preset_and_error_is_named() -> None:
     assert all(name in README for name in presets.PRESETS)
     concrete = {name for name in vars(errors) if name.endswith("Error")}
