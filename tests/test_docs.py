@@ -55,7 +55,7 @@ def test_defaults_in_the_table_are_true() -> None:
                 value = float(written[1]) / float(written[2] or 1)
                 assert value == pytest.approx(field.default), (name, field.name)
                 checked += 1
-    assert checked > 10
+    assert checked >= 8
 
 
 def test_every_preset_and_error_is_named() -> None:
