@@ -22,6 +22,7 @@ from weather_ecs.components import (
     PointLight,
     RainArea,
     RainContainer,
+    RippleSurface,
     SplashEmitter,
     Sun,
     Wind,
@@ -38,8 +39,14 @@ def area() -> RainArea:
     return RainArea((0, 0), (60, 40))
 
 
+REQUIRED = {
+    RainArea: {"center": (0, 0), "radii": (60, 40)},
+    RippleSurface: {"center": (0, 0, 0), "size": (4, 3)},
+}
+
+
 def make(kind: type) -> object:
-    return area() if kind is RainArea else kind()
+    return kind(**REQUIRED.get(kind, {}))
 
 
 CASES = [
@@ -61,6 +68,18 @@ CASES = [
     (RainContainer, "density", [0, 100]),
     (RainContainer, "veil", [0, 10]),
     (RainContainer, "fastest", [0, 1000]),
+    (RippleSurface, "center", [(1, 2, 3), np.arange(3)]),
+    (RippleSurface, "size", [(0.01, 1e5), np.array([3, 2])]),
+    (RippleSurface, "heading", [-7.0, 1e6]),
+    (RippleSurface, "shape", ["rectangle", "ellipse"]),
+    (RippleSurface, "cell", [0.001, 10]),
+    (RippleSurface, "speed", [0.01, 10]),
+    (RippleSurface, "damping", [5, np.int64(9)]),
+    (RippleSurface, "amplitude", [0, 100]),
+    (RippleSurface, "color", [(0, 0, 0), (1, 1, 1)]),
+    (RippleSurface, "clarity", [0.001, 1000]),
+    (RippleSurface, "draw", [True, np.bool_(False)]),
+    (RippleSurface, "catches_rain", [False, True]),
     (SplashEmitter, "size", [0, 200]),
     (SplashEmitter, "largest", [0.001, 10]),
     (SplashEmitter, "duration", [0.02, 5]),
@@ -102,6 +121,18 @@ BAD = [
     (RainContainer, "density", [-1, 101]),
     (RainContainer, "veil", [-1]),
     (RainContainer, "fastest", [-1, 1001]),
+    (RippleSurface, "center", [(1, 2), (1e8, 0, 0)]),
+    (RippleSurface, "size", [(0, 1), (1,), (1, 2, 3), (2e5, 1)]),
+    (RippleSurface, "heading", []),
+    (RippleSurface, "shape", ["", "Ellipse", b"ellipse", ("ellipse",)]),
+    (RippleSurface, "cell", [0, -1, 11]),
+    (RippleSurface, "speed", [0, 11]),
+    (RippleSurface, "damping", [4, 10, 5.0, 5.5]),
+    (RippleSurface, "amplitude", [-1, 101]),
+    (RippleSurface, "color", [(-1, 0, 0), (0, 0, 1.5), (0, 0)]),
+    (RippleSurface, "clarity", [0, 1001]),
+    (RippleSurface, "draw", [0, 1, "yes"]),
+    (RippleSurface, "catches_rain", [0, "no"]),
     (SplashEmitter, "size", [-1, 201]),
     (SplashEmitter, "largest", [0, 11]),
     (SplashEmitter, "duration", [0, 6]),
@@ -124,16 +155,17 @@ BAD = [
 
 
 @pytest.mark.parametrize(("kind", "name", "values"), CASES)
-def test_good_values_are_kept_as_plain_floats(kind, name, values):
+def test_good_values_are_kept_as_plain_values(kind, name, values):
     for value in values:
         component = make(kind)
+        before = getattr(component, name)
         setattr(component, name, value)
         got = getattr(component, name)
         if isinstance(got, tuple):
             assert all(type(item) is float for item in got)
         else:
-            assert type(got) is float
-            assert got == pytest.approx(float(value))
+            assert type(got) is type(before)
+            assert got == (value if type(got) is not float else pytest.approx(float(value)))
 
 
 @pytest.mark.parametrize(("kind", "name", "values"), BAD)
@@ -142,6 +174,8 @@ def test_bad_values_name_the_field_and_change_nothing(kind, name, values):
     before = getattr(component, name)
     size = len(before) if isinstance(before, tuple) else 0
     odd = [(bad,) + before[1:] for bad in NOT_NUMBERS] if size else NOT_NUMBERS
+    if isinstance(before, bool):
+        odd = [value for value in odd if not isinstance(value, (bool, np.bool_))]
     for value in [*values, *odd, None, "x" * size]:
         with pytest.raises(InvalidValueError) as caught:
             setattr(component, name, value)
@@ -149,7 +183,7 @@ def test_bad_values_name_the_field_and_change_nothing(kind, name, values):
         assert name in str(caught.value)
         assert "allowed" in str(caught.value)
         assert getattr(component, name) is before
-        arguments = {"center": (0, 0), "radii": (2, 1)} if kind is RainArea else {}
+        arguments = REQUIRED.get(kind, {})
         with pytest.raises(ValueError, match=name):
             kind(**{**arguments, name: value})
 

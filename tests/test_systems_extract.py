@@ -12,6 +12,7 @@ from weather_ecs.components import (
     PointLight,
     RainArea,
     RainContainer,
+    RippleSurface,
     Sun,
     Wind,
 )
@@ -194,6 +195,39 @@ def test_occluders(state):
     third = system.frame(state).occluders
     assert [item.key for item in third[:2]] == [first[0].key, first[2].key]
     assert third[2].key not in {item.key for item in first}
+
+
+def test_ripple_surfaces_and_the_faces_that_catch_rain(state):
+    roof = Occluder(CORNERS, TRIANGLE)
+    pond = RippleSurface((5, 2, -7), (4, 2), heading=np.pi / 2, shape="ellipse", cell=0.05)
+    basin = RippleSurface((0, 1, 0), (1, 1), catches_rain=False)
+    esper.create_entity(pond)
+    esper.create_entity(basin)
+    esper.create_entity(roof)
+    system = ExtractSystem()
+    first = system.frame(state)
+    a, b = first.ripples
+    assert (a.center, a.size, a.ellipse, a.cell, a.damping) == (
+        (5.0, 2.0, -7.0), (4.0, 2.0), True, 0.05, 5,
+    )  # fmt: skip
+    assert not b.ellipse and a.key != b.key
+    own, face = first.occluders  # the basin's owner has its own
+    assert own.transform is roof.transform and not face.dynamic
+    assert face.key < 0 and face.vertices.shape == (48, 3)
+    assert (face.vertices[:, 1] == 2.0).all()
+    # A quarter turn puts the long side along -z.
+    assert np.allclose(np.ptp(face.vertices, axis=0), (2.0, 0.0, 4.0), atol=1e-5)
+    assert np.allclose(face.vertices.mean(axis=0), (5, 2, -7), atol=1e-5)
+    pond.amplitude = 2.0
+    second = system.frame(state)
+    assert second.ripples[0].amplitude == 2.0 and second.ripples[1] is b
+    assert second.occluders is first.occluders  # nothing to capture again
+    pond.center = (5, 3, -7)
+    third = system.frame(state)
+    assert third.occluders[0] is own and (third.occluders[1].vertices[:, 1] == 3.0).all()
+    esper.delete_entity(1)
+    last = system.frame(state)
+    assert last.ripples == (b,) and last.occluders == (own,)
 
 
 def test_ten_thousand_lives_leave_nothing_behind(state):

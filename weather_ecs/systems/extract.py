@@ -14,6 +14,7 @@ from weather_ecs.components import (
     PointLight,
     RainArea,
     RainContainer,
+    RippleSurface,
     SplashEmitter,
     Sun,
     Wind,
@@ -31,10 +32,11 @@ from weather_ecs.frame import (
 from weather_ecs.systems.occluders import OccluderList
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.rain_area import drift_velocity
+from weather_ecs.systems.ripples import RippleList
 from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.wind import total_wind
 
-_KINDS = (RainArea, Wind, PointLight, Sun, RainContainer, SplashEmitter)
+_KINDS = (RainArea, Wind, PointLight, Sun, RainContainer, SplashEmitter, RippleSurface)
 _LOOK = tuple(item.name for item in fields(DropLook))
 _SPLASH = tuple(item.name for item in fields(SplashLook))
 _NO_AREAS = empty(AREA_DTYPE)
@@ -59,6 +61,7 @@ class ExtractSystem:
         self._parts: tuple[NDArray, tuple[float, float, float], SkyLight, DropLook]
         self._splash: SplashLook | None = None
         self._occluders = OccluderList()
+        self._ripples = RippleList()
         self._time = -1.0
 
     def run(self, state: WeatherState) -> None:
@@ -78,7 +81,7 @@ class ExtractSystem:
             self._rebuild(state)
             self._lists, self._revisions = lists, revisions
             self._frame = None
-        occluders = self._occluders.collect()
+        occluders = self._ripples.with_faces(self._occluders.collect())
         frame, time = self._frame, state.clock.time
         if frame is None or time != self._time or occluders is not frame.occluders:
             self._time = time
@@ -92,7 +95,8 @@ class ExtractSystem:
             areas = areas.copy()
             areas["center"] += self._velocity * clock.remainder
             areas.setflags(write=False)
-        return FrameData(clock.time, clock.steps, areas, *self._parts, occluders, self._splash)
+        shapes = (occluders, self._splash, self._ripples.surfaces)
+        return FrameData(clock.time, clock.steps, areas, *self._parts, *shapes)
 
     def _rebuild(self, state: WeatherState) -> None:
         wind = total_wind(state)
@@ -118,6 +122,7 @@ class ExtractSystem:
         lights = _frozen(lamps, LIGHT_DTYPE) if lamps else _NO_LIGHTS
         self._parts = (lights, wind, _sky(state), _look(state))
         self._splash = _splash(state)
+        self._ripples.collect(state)
         self._entities = [
             pair[0]
             for kind in _KINDS
