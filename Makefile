@@ -1,6 +1,6 @@
 # Every target sets up what it needs; a second run finds it done. Needs Python >= 3.11 and make.
 #
-#   make demo      the game; without a display, the scripted tour off screen, into demo_out/
+#   make demo      the game; without a display, the scripted tour off screen, into out/demo/
 #   make test      every test
 #   make bench     every benchmark, JSON into out/bench/
 #   make lint      ruff and mypy
@@ -35,7 +35,7 @@ lint: .venv/.stamp-python
 	$(BIN)/mypy
 
 clean:
-	rm -rf .venv build dist out demo_out *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv build dist out *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 setup: .venv/.stamp-opengl
