@@ -9,8 +9,6 @@ surface at the same texels as before: nothing crawls.
 from __future__ import annotations
 
 import logging
-import math
-from dataclasses import dataclass
 
 import moderngl
 import numpy as np
@@ -21,69 +19,11 @@ from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.occluder_meshes import OccluderMeshes
+from weather_ecs.physics.footprint import Footprint, fall_speed_of, footprint
+
+__all__ = ["Footprint", "Heightmap", "fall_speed_of", "footprint"]
 
 _log = logging.getLogger("weather_ecs")
-
-# The wind is rounded to this slope, so that its small changes do not call for a new capture.
-_SLOPE_STEP = 0.02
-_STEEPEST = 4.0
-_ABOVE, _BELOW = 120.0, 80.0  # m of height that the map can tell apart, about the observer
-
-
-@dataclass(frozen=True, slots=True)
-class Footprint:
-    """What a map covers: its centre carried to height 0, half-size, fall slope and heights."""
-
-    center: tuple[float, float]  # m, (x, z) at height 0
-    half: float  # m
-    slope: tuple[float, float]  # horizontal metres per metre of fall
-    bottom: float
-    top: float
-
-    def matrix(self) -> NDArray[np.float64]:
-        """World to (u, v, depth) in [0, 1], (4, 4); depth 0 at the top."""
-        scale = 0.5 / self.half
-        drop = 1.0 / (self.bottom - self.top)
-        (cx, cz), (sx, sz) = self.center, self.slope
-        return np.array(
-            [
-                [scale, scale * sx, 0.0, 0.5 - scale * cx],
-                [0.0, scale * sz, scale, 0.5 - scale * cz],
-                [0.0, drop, 0.0, -drop * self.top],
-                [0.0, 0.0, 0.0, 1.0],
-            ]
-        )
-
-
-def footprint(
-    position: tuple[float, float, float],
-    reach: float,
-    wind: tuple[float, float, float],
-    fall_speed: float,
-    size: int,
-    before: Footprint | None,
-) -> Footprint:
-    """What the map should cover for an observer; `before` where that still serves.
-
-    The half-size leaves room to move; the centre is a whole number of texels.
-    """
-    slope = (_slope(wind[0], fall_speed), _slope(wind[2], fall_speed))
-    x, y, z = position
-    center = (x + y * slope[0], z + y * slope[1])
-    half = 1.25 * reach
-    if before is not None and before.slope == slope and before.half == half:
-        moved = max(abs(center[0] - before.center[0]), abs(center[1] - before.center[1]))
-        if moved <= 0.2 * reach and abs(y - 0.5 * (before.top + before.bottom)) <= 40.0:
-            return before
-    texel = 2.0 * half / size
-    snapped = (round(center[0] / texel) * texel, round(center[1] / texel) * texel)
-    middle = round(y / 10.0) * 10.0
-    return Footprint(snapped, half, slope, middle - _BELOW, middle + _ABOVE)
-
-
-def _slope(wind: float, fall_speed: float) -> float:
-    slope = round(wind / fall_speed / _SLOPE_STEP) * _SLOPE_STEP
-    return min(max(slope, -_STEEPEST), _STEEPEST)
 
 
 class Heightmap:
@@ -99,7 +39,8 @@ class Heightmap:
         self.footprint: Footprint | None = None
         self.captures = 0  # of the dynamic layer
         self.static_captures = 0
-        self._static, self._static_target = self._layer()
+        # What does not move, without what does.
+        self.static_texture, self._static_target = self._layer()
         self.texture, self._target = self._layer()
         self._static_seen: tuple[tuple[int, ...], ...] | None = None
         self._dynamic_seen: tuple[tuple[int, ...], ...] | None = None
@@ -119,12 +60,14 @@ class Heightmap:
         reach: float,
         wind: tuple[float, float, float],
         fall_speed: float,
+        extent: float = 1.25,
     ) -> bool:
         """Bring the map up to date; draws only what has changed. True if anything was drawn.
 
         Leaves the bound framebuffer, depth test, mask and culling changed: the caller restores.
         """
-        place = footprint(position, reach, wind, fall_speed, self.size, self.footprint)
+        before = self.footprint
+        place = footprint(position, reach, wind, fall_speed, self.size, before, extent)
         still = [o for o in occluders if not o.dynamic and o.key not in self._broken]
         moving = [o for o in occluders if o.dynamic and o.key not in self._broken]
         static_seen = tuple(map(_identity, still))
@@ -191,7 +134,7 @@ class Heightmap:
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
-        for thing in (self._target, self.texture, self._static_target, self._static):
+        for thing in (self._target, self.texture, self._static_target, self.static_texture):
             thing.release()
 
 
@@ -202,12 +145,3 @@ def _identity(occluder: OccluderData) -> tuple[int, ...]:
     """
     o = occluder
     return (o.key, id(o.transform), id(o.vertices), id(o.indices), id(o.draw))
-
-
-def fall_speed_of(rain_rate: float) -> float:
-    """Speed in m/s that stands for a rain's mean fall: that of its drop of median water volume.
-
-    Marshall and Palmer's median volume diameter is 3.67 / slope.
-    """
-    slope = 4.1 * max(rain_rate, 0.1) ** -0.21
-    return 9.65 - 10.3 * math.exp(-0.6 * max(3.67 / slope, 0.5))

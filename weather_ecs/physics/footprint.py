@@ -1,0 +1,96 @@
+"""What a collision heightmap covers, and along which slope the rain falls into it.
+
+A map lies level, in world axes, and looks along the mean fall direction by shearing: a point is
+carried along its fall to the height 0 of the world, and where it arrives is its place in the map.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+# The wind is rounded to this slope, so that its small changes do not call for a new capture.
+_SLOPE_STEP = 0.02
+_STEEPEST = 4.0
+_ABOVE, _BELOW = 120.0, 80.0  # m of height that the map can tell apart, about the observer
+
+
+@dataclass(frozen=True, slots=True)
+class Footprint:
+    """What a map covers: its centre carried to height 0, half-size, fall slope and heights."""
+
+    center: tuple[float, float]  # m, (x, z) at height 0
+    half: float  # m
+    slope: tuple[float, float]  # horizontal metres per metre of fall
+    bottom: float
+    top: float
+
+    def matrix(self) -> NDArray[np.float64]:
+        """World to (u, v, depth) in [0, 1], (4, 4); depth 0 at the top."""
+        scale = 0.5 / self.half
+        drop = 1.0 / (self.bottom - self.top)
+        (cx, cz), (sx, sz) = self.center, self.slope
+        return np.array(
+            [
+                [scale, scale * sx, 0.0, 0.5 - scale * cx],
+                [0.0, scale * sz, scale, 0.5 - scale * cz],
+                [0.0, drop, 0.0, -drop * self.top],
+                [0.0, 0.0, 0.0, 1.0],
+            ]
+        )
+
+
+def footprint(
+    position: tuple[float, float, float],
+    reach: float,
+    wind: tuple[float, float, float],
+    fall_speed: float,
+    size: int,
+    before: Footprint | None,
+    extent: float = 1.25,
+) -> Footprint:
+    """What the map should cover for an observer; `before` where that still serves.
+
+    The half-size, `extent` times the reach, leaves room to move; the centre is a whole number of
+    texels.
+    """
+    slope = fall_slope(wind, fall_speed)
+    x, y, z = position
+    center = (x + y * slope[0], z + y * slope[1])
+    half = extent * reach
+    if before is not None and before.slope == slope and before.half == half:
+        moved = max(abs(center[0] - before.center[0]), abs(center[1] - before.center[1]))
+        room = max(half - 1.05 * reach, 0.02 * half)
+        if moved <= room and abs(y - 0.5 * (before.top + before.bottom)) <= 40.0:
+            return before
+    texel = 2.0 * half / size
+    snapped = (round(center[0] / texel) * texel, round(center[1] / texel) * texel)
+    middle = round(y / 10.0) * 10.0
+    return Footprint(snapped, half, slope, middle - _BELOW, middle + _ABOVE)
+
+
+def fall_slope(wind: tuple[float, float, float], fall_speed: float) -> tuple[float, float]:
+    """Horizontal metres, x and z, that rain covers in a metre of its mean fall; in steps of 0.02."""
+    return _slope(wind[0], fall_speed), _slope(wind[2], fall_speed)
+
+
+def _slope(wind: float, fall_speed: float) -> float:
+    slope = round(wind / fall_speed / _SLOPE_STEP) * _SLOPE_STEP
+    return min(max(slope, -_STEEPEST), _STEEPEST)
+
+
+def fall_speed_of(rain_rate: float) -> float:
+    """Speed in m/s that stands for a rain's mean fall: that of its drop of median water volume.
+
+    Marshall and Palmer's median volume diameter is 3.67 / slope.
+    """
+    slope = 4.1 * max(rain_rate, 0.1) ** -0.21
+    return 9.65 - 10.3 * math.exp(-0.6 * max(3.67 / slope, 0.5))
+
+
+def fall_speed_over(rain_rates: NDArray) -> float:
+    """Mean fall speed in m/s that maps are made for: that of the heaviest of several rains."""
+    return fall_speed_of(float(rain_rates.max())) if len(rain_rates) else fall_speed_of(0.0)
