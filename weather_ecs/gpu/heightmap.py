@@ -12,7 +12,6 @@ import logging
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
 from weather_ecs.frame import OccluderData
 from weather_ecs.gpu import gl_enums as e

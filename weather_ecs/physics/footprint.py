@@ -73,7 +73,7 @@ def footprint(
 
 
 def fall_slope(wind: tuple[float, float, float], fall_speed: float) -> tuple[float, float]:
-    """Horizontal metres, x and z, that rain covers in a metre of its mean fall; in steps of 0.02."""
+    """Horizontal metres, x and z, that rain covers in a metre of mean fall, by steps of 0.02."""
     return _slope(wind[0], fall_speed), _slope(wind[2], fall_speed)
 
 
