@@ -33,7 +33,7 @@ def law_of(container: ContainerData, view: ViewData) -> StreakLaw:
     return StreakLaw(
         container.axis, container.shape, container.area_axis, container.area_shape,
         container.law, container.load, container.count, 1.0 / max(FADE * container.count, 1.0),
-        look.size_maximum, container.size_scale, look.width, look.opacity,
+        look.size_maximum, container.size_scale, look.width, look.opacity, look.density,
     )  # fmt: skip
 
 

@@ -91,7 +91,8 @@ SCENES = {
     "dark": scene(frame(INSIDE, sky=SkyLight(zenith_color=(0, 0, 0), horizon_color=(0, 0, 0),
                                              ground_color=(0, 0, 0))), camera()),
     "other looks": scene(
-        frame(INSIDE, look=DropLook(15.0, 12.0, 0.5, 3.0, 0.01, 1.0, 0.9)), camera()),
+        frame(INSIDE, look=DropLook(reach=15.0, height=12.0, size_maximum=3.0, exposure=0.01,
+                                    width=1.0, density=1.5, opacity=0.9)), camera()),
 }  # fmt: skip
 
 
@@ -140,7 +141,7 @@ def test_nothing_is_drawn_outside_its_area(capture: StreakCapture) -> None:
 
 def one(capture: StreakCapture, place: Any, velocity: Any, **rest: Any) -> tuple[Any, ...]:
     """One drop of 1.5 mm: (tail in pixels, head in pixels, width, colour)."""
-    look = rest.pop("look", DropLook(width=4.0, opacity=1.0, size_maximum=1.0))
+    look = rest.pop("look", DropLook(width=4.0, opacity=1.0, size_maximum=1.0, density=1.0))
     observer = rest.pop("observer", (0.0, 0.0, 0.0))
     seen = frame(area(radii=(500.0, 500.0)), look=look, **rest)
     s = scene(seen, camera(), 8, observer)
@@ -208,7 +209,7 @@ def test_many_lamps_and_the_nearest_count(capture: StreakCapture) -> None:
 
 def level_scene(rate: float, width: float, drops: int = 120_000) -> Scene:
     """Rain that falls straight past an observer who looks level, all of it drawn."""
-    look = DropLook(reach=30.0, height=40.0, width=width, opacity=1.0)
+    look = DropLook(reach=30.0, height=40.0, width=width, opacity=1.0, density=1.0)
     at = camera(vertical=40.0)
     return scene(frame(area(radii=(500.0, 500.0), rain_rate=rate), look=look), at, drops)
 
