@@ -52,11 +52,15 @@ class FakeRenderer:
         self.asked_backend = backend
         self.stats = {"drops_moved": 10, "drops_drawn": 9, "containers": 1, "gpu_ms": 2.0}
         self.drawn: list[tuple[Any, Any]] = []
+        self.forgotten: list[int] = []
         self.released = 0
 
     def draw(self, view: Any, settings: Any) -> None:
         assert not self.released
         self.drawn.append((view, settings))
+
+    def forget(self, key: int) -> None:
+        self.forgotten.append(key)
 
     def release(self) -> None:
         self.released += 1
@@ -236,7 +240,9 @@ def test_observers_that_are_gone_are_forgotten(made):
     weather.draw(np.eye(4), PROJECTION)
     assert len(weather._keys) <= 1
     assert len(weather._view._observed) <= 2
-    assert len({view.key for view, _ in made[0].drawn}) == 301
+    keys = {view.key for view, _ in made[0].drawn}
+    assert len(keys) == 301
+    assert set(made[0].forgotten) == keys - {0}
 
 
 def test_stats_of_a_draw(made):

@@ -224,6 +224,7 @@ class Weather:
             self._view_seed = self._state.seed
         for key in self._keys.retired():
             self._view.forget(key)
+            self._renderer.forget(key)
         return self._renderer
 
     # The end

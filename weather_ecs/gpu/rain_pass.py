@@ -104,6 +104,10 @@ class RainPass:
             self.fill_container(container, view)
             moved += self._move(drops, container, view, seen.impacts, sheltered)
             drops.placed = placing
+        if len(seen.sets) > len(view.containers):
+            alive = set(view.frame.areas["key"].tolist())
+            for key in [k for k in seen.sets if k >> 1 not in alive]:
+                seen.sets.pop(key).release()
         self._forget()
         return moved
 
@@ -191,18 +195,22 @@ class RainPass:
             for key in [k for k, drops in seen.sets.items() if drops.last_used < oldest]:
                 seen.sets.pop(key).release()
             if not seen.sets:
-                if seen.impacts is not None:
-                    seen.impacts.release()
-                del self._observed[observer]
+                self.forget(observer)
+
+    def forget(self, observer: int) -> None:
+        """Give back the drops and impacts of an observer who is gone."""
+        seen = self._observed.pop(observer, None)
+        if seen is None:
+            return
+        for drops in seen.sets.values():
+            drops.release()
+        if seen.impacts is not None:
+            seen.impacts.release()
 
     def release(self) -> None:
         """Give every buffer back; twice does no harm."""
-        for seen in self._observed.values():
-            for drops in seen.sets.values():
-                drops.release()
-            if seen.impacts is not None:
-                seen.impacts.release()
-        self._observed.clear()
+        for observer in list(self._observed):
+            self.forget(observer)
         self._draw_block.release()
         self._step_block.release()
 

@@ -25,7 +25,9 @@ void main()
     float per_depth = 1.0 / dot(vs_ray, camera_forward.xyz);
     vec3 ray = vs_ray * per_depth;
     vec4 own = vs_own * per_depth;
-    float depth = texelFetch(scene_depth, ivec2(gl_FragCoord.xy - view_origin.xy), 0).r;
+    // Where the host has no depth, one texel stands for all.
+    ivec2 texel = min(ivec2(gl_FragCoord.xy - view_origin.xy), textureSize(scene_depth, 0) - 1);
+    float depth = texelFetch(scene_depth, texel, 0).r;
     float t1 = depth >= 1.0 ? 1e5 : view_depth.y / (depth * 2.0 - 1.0 + view_depth.x);
     float t0 = 0.0;
     float rise = abs(ray.y) < 1e-6 ? 1e-6 : ray.y;
