@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 
-POINTS = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
+POINTS = (
+    "N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
+    "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW",
+)  # fmt: skip
 
 
 def bearing(heading: float) -> float:
@@ -14,4 +17,4 @@ def bearing(heading: float) -> float:
 
 def compass(heading: float) -> str:
     """The point of the compass nearest to a heading."""
-    return POINTS[round(bearing(heading) / 45.0) % 8]
+    return POINTS[round(bearing(heading) / 22.5) % 16]

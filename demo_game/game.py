@@ -25,7 +25,7 @@ from weather_ecs.components import RainArea
 from weather_ecs.errors import WeatherError
 from weather_ecs.presets import PRESETS
 
-WIND_HEADING = math.radians(-20.0)  # to the east, a little south
+WIND_HEADING = math.radians(-22.5)  # to the east, a little south
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings its own clouds
 SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
@@ -94,8 +94,8 @@ class Game:
         esper.process(dt)
 
     def draw(self, framebuffer: moderngl.Framebuffer) -> None:
-        """Draw the picture into a framebuffer of any size but 0."""
-        width, height = framebuffer.size
+        """Draw the picture into a framebuffer's viewport; into one without size nothing."""
+        _, _, width, height = framebuffer.viewport
         if width < 1 or height < 1:
             return
         esper.switch_world(self._world)
@@ -119,7 +119,7 @@ class Game:
     def turn_wind(self, steps: int) -> str:
         """Turn the wind by keys; returns what to tell the player."""
         self.mood.turn_wind(steps * TURN_STEP)
-        return f"Wind to the {compass(self.mood.target.wind_heading)}"
+        return f"Wind to {compass(self.mood.target.wind_heading)}"
 
     def settings_changed(self, field: str) -> None:
         """A setting has another value now."""

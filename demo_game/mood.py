@@ -11,7 +11,7 @@ CHANGE_TIME = 4.0  # s from one preset to the next
 TURN_TIME = 1.0  # s for a change of the wind by hand
 STRONGEST_WIND = 24.0  # m/s, by hand
 WIND_STEP = 2.0  # m/s per key
-TURN_STEP = math.radians(15.0)  # per key
+TURN_STEP = math.radians(22.5)  # per key
 
 
 @dataclass(frozen=True)

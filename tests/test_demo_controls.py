@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+
 from demo_game.input import PRESET_KEYS, Controls, Stick, dead_zone
 from demo_game.mood import CHANGE_TIME, STRONGEST_WIND, MoodChanger, preset_mood
 from demo_game.settings import FIELDS_OF_VIEW, QUALITIES, Settings, step

@@ -6,6 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from demo_game.collision import Box, Colliders, Post
 from demo_game.player import (
     EYE_HEIGHT,
@@ -17,8 +20,6 @@ from demo_game.player import (
     Intent,
     Player,
 )
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 AHEAD = Intent(forward=1.0)
 STILL = Intent()

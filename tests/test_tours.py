@@ -6,12 +6,13 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from demo_game.camera import Pose, look_direction, projection_matrix, view_matrix, yaw_pitch
 from demo_game.curve import Path, Smooth
 from demo_game.player import EYE_HEIGHT
 from demo_game.tours import EDGE_Z, TOURS, make_tour
-from hypothesis import given
-from hypothesis import strategies as st
 
 
 class Flat:

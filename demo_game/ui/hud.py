@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from demo_game.compass import compass
 from demo_game.ui.theme import MARGIN, PADDING, TEXT_DIM, Frame, Layer, Rect, Text
@@ -109,7 +110,10 @@ def readout_values(
     position: tuple[float, float, float],
 ) -> dict[str, str]:
     """The texts of the readout; wind is its speed in m/s and heading in rad."""
-    get = lambda name: getattr(stats, name, 0)  # noqa: E731
+
+    def get(name: str) -> Any:
+        return getattr(stats, name, 0)
+
     used = str(get("quality"))
     return {
         "frame": f"{ms:.1f} ms   {1000.0 / max(ms, 0.01):.0f} fps",

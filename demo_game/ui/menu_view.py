@@ -106,8 +106,8 @@ class MenuView:
             if value is not None and item.value is not None:
                 value.set(item.value(), ACCENT if chosen else TEXT)
         row = self._rows[self.menu.chosen]
-        if self._mark.position != (row.x, row.y):  # type: ignore[attr-defined]
-            self._mark.position = (row.x, row.y)  # type: ignore[attr-defined]
+        if self._mark.position != (row.x, row.y):
+            self._mark.position = (row.x, row.y)
         self._layer.draw()
 
     def delete(self) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import pyglet
 from pyglet.graphics import Batch, Group
@@ -141,7 +142,8 @@ class Layer:
         self.back = Group(order=0)
         self.marks = Group(order=1)
         self.front = Group(order=2)
-        self._things: list = []
+        self.panels: list[Rect] = []
+        self._things: list[Any] = []
 
     def text(self, text: str, x: float, y: float, size: float, **options: object) -> Text:
         """A line of text; x and y in px, size in units."""
@@ -149,8 +151,9 @@ class Layer:
         self._things.append(label)
         return label
 
-    def panel(self, rect: Rect, color: Rgba = PANEL) -> object:
+    def panel(self, rect: Rect, color: Rgba = PANEL) -> None:
         """A rounded, translucent panel with a thin edge."""
+        self.panels.append(rect)
         radius = self.frame.px(RADIUS)
         for grow, shade in ((1.0, PANEL_EDGE), (0.0, color)):
             self.add(
@@ -166,9 +169,8 @@ class Layer:
                     group=self.back,
                 )
             )
-        return self._things[-1]
 
-    def add(self, thing: object) -> object:
+    def add(self, thing: Any) -> Any:
         """Keep a shape that was put into the batch."""
         self._things.append(thing)
         return thing
