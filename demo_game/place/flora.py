@@ -1,4 +1,4 @@
-"""Trees in three levels of detail, made of small faces; a metre tall per unit of height."""
+"""Trees in four levels of detail, made of small faces; a metre tall per unit of height."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from .foliage import SOLID
 from .mesh import LEAF, WOOD, Builder, Mesh
 from .rocks import sphere
 
-LEVELS = 3  # of detail: near, middle, far
+LEVELS = 4  # of detail: near, middle, far, a silhouette
 UP = np.array([0.0, 1.0, 0.0])
+SPRUCE_PROFILE = [(0.10, 0.22), (0.46, 0.11), (0.47, 0.16), (1.02, 0.0)]
 
 
 def conifer(seed: int, level: int) -> Mesh:
@@ -21,9 +22,11 @@ def conifer(seed: int, level: int) -> Mesh:
     rng = np.random.default_rng(seed)
     build = Builder(seed)
     color = palette.CONIFER[seed % 3]
+    if level == 3:
+        return _silhouette(build, color, SPRUCE_PROFILE)
     build.tube((0, -0.05, 0), (0, 0.4, 0), (0.020, 0.012), palette.BARK, sides=(6, 4, 3)[level])
     _core(build, color, 6 if level == 0 else 4)
-    count = (150, 64, 24)[level]
+    count = (150, 64, 20)[level]
     share = ((np.arange(count) + rng.uniform(-0.4, 0.4, count)) / count).clip(0, 1)
     share = share**1.12  # denser below
     foot = 0.09 + 0.89 * share
@@ -65,14 +68,40 @@ def _closed_bark(mesh: Mesh) -> Mesh:
     return replace(mesh, uvs=np.where((mesh.material == WOOD)[:, None], SOLID, mesh.uvs))
 
 
+def holed(mesh: Mesh) -> NDArray:
+    """(m,) which triangles have holes painted into them."""
+    u, v = mesh.uvs[mesh.indices].transpose(2, 0, 1)
+    return (np.ptp(u, axis=1) > 0.1) & (np.ptp(v, axis=1) > 0.3) & (v.max(axis=1) < 1.01)
+
+
 def _core(build: Builder, color: NDArray, sides: int) -> None:
     angle = np.linspace(0, 2 * np.pi, sides, endpoint=False)
-    ring = np.stack([0.105 * np.cos(angle), np.full(sides, 0.12), 0.105 * np.sin(angle)], 1)
+    ring = np.stack([0.135 * np.cos(angle), np.full(sides, 0.12), 0.135 * np.sin(angle)], 1)
     points = np.concatenate([ring, [[0.0, 1.01, 0.0]]])
     fan = [[(i + 1) % sides, i, sides] for i in range(sides)]
     sway = np.append(np.full(sides, 0.1), 1.0)
     uvs = np.tile(SOLID, (len(points), 1))
-    build.faces(points, fan, color * 0.42, uvs=uvs, material=LEAF, ambient=0.5, sway=sway)
+    build.faces(points, fan, color * 0.5, uvs=uvs, material=LEAF, ambient=0.5, sway=sway)
+
+
+def _silhouette(
+    build: Builder, color: NDArray, profile: list[tuple[float, float]], sides: int = 5
+) -> Mesh:
+    """A turned shape on a trunk; its profile is (height, radius) from below up."""
+    build.tube((0, -0.05, 0), (0, 0.4, 0), (0.02, 0.02), palette.BARK, sides=3)
+    angle = np.linspace(0, 2 * np.pi, sides + 1)
+    way = np.stack([np.cos(angle), 0 * angle, np.sin(angle)], 1)
+    n = sides + 1
+    k = np.arange(sides)[:, None]
+    for (y0, r0), (y1, r1) in zip(profile[:-1], profile[1:], strict=True):
+        points = np.concatenate([way * r0 + UP * y0, way * r1 + UP * y1])
+        faces = np.concatenate([k + (0, n, 1), k + (1, n, n + 1)])
+        slope = (r0 - r1) / max(y1 - y0, 0.01)
+        build.faces(
+            points, faces, color * (0.8 + 0.25 * y1), normals=np.tile(way + slope * UP, (2, 1)),
+            uvs=np.tile(SOLID, (2 * n, 1)), material=LEAF, ambient=0.62 + 0.38 * y1,
+        )  # fmt: skip
+    return build.build()
 
 
 def broadleaf(seed: int, level: int, birch: bool = False) -> Mesh:
@@ -83,6 +112,9 @@ def broadleaf(seed: int, level: int, birch: bool = False) -> Mesh:
     bark = palette.BIRCH_BARK if birch else palette.BARK
     spread, base = (0.17, 0.34) if birch else (0.28, 0.36)
     thick = 0.014 if birch else 0.028
+    if level == 3:
+        crown = [(-0.05, 0.1), (0.10, 1.1), (0.36, 1.0), (0.58, 0.25)]
+        return _silhouette(build, color, [(base + y, spread * r) for y, r in crown])
     lean = rng.uniform(-0.03, 0.03, 2)
     fork = np.array([lean[0], 0.42, lean[1]])
     build.tube((0, -0.05, 0), fork, (thick * 1.25, thick * 0.7), bark, sides=(7, 5, 3)[level])
@@ -98,6 +130,7 @@ def bush(seed: int, level: int) -> Mesh:
     rng = np.random.default_rng(seed)
     build = Builder(seed)
     color = palette.BUSH[seed % 3]
+    level = min(level, 2)
     for at, radius in _lobes(rng, 5, 0.62, 0.16, 0.62):
         _lobe(build, rng, at, radius * (1.0, 0.85, 1.0), color, level)
     return build.build()
@@ -128,7 +161,7 @@ def _lobe(
     bumps = 1.0 + 0.16 * rng.uniform(-1, 1, (len(points), 1))
     low = 0.55 + 0.45 * (points[:, 1] * 0.5 + 0.5)
     build.faces(
-        at + points * radii * (0.74, 0.80, 0.90)[level] * bumps,
+        at + points * radii * (0.82, 0.86, 0.92)[level] * bumps,
         faces,
         color * (0.66, 0.70, 0.74)[level],
         normals=points,

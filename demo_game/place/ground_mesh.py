@@ -18,16 +18,20 @@ HILL_SECTORS = 288
 CHUNK_SECTORS = 24
 
 
+SKIRT = 0.7  # m, how far a coarse chunk's rim hangs down to close the gaps
+
+
 @dataclass(frozen=True)
 class GroundMesh:
-    """The ground's triangles; chunks are (first index, count) with their boxes."""
+    """The ground's triangles; chunks are (first triangle, triangles) with their boxes."""
 
     vertices: NDArray  # (n, 3) f4, m
     normals: NDArray  # (n, 3) f4
     colors: NDArray  # (n, 3) f4, linear albedo where the painted map does not reach
     painted: NDArray  # (n,) f4, 1 where the painted map holds
     indices: NDArray  # (m, 3) u4
-    chunks: NDArray  # (c, 2) first triangle, triangles
+    chunks: NDArray  # (c, 2) in full
+    coarse: NDArray  # (c, 2) for the distance; the same as `chunks` where there is none
     low: NDArray  # (c, 3) m
     high: NDArray
 
@@ -55,21 +59,35 @@ def _normals(points: NDArray, triangles: NDArray) -> NDArray:
     return normals / np.linalg.norm(normals, axis=1, keepdims=True)
 
 
-def _grid(terrain: Terrain) -> tuple[NDArray, NDArray, list[NDArray]]:
+def _cells(columns: NDArray, rows: NDArray, width: int) -> NDArray:
+    """(n, 3) triangles between grid lines, of vertices numbered row by row, `width` a row."""
+    i, j = np.meshgrid(np.arange(len(columns) - 1), np.arange(len(rows) - 1))
+    i, j = i.ravel(), j.ravel()
+    a, b = rows[j] * width + columns[i], rows[j] * width + columns[i + 1]
+    c, d = rows[j + 1] * width + columns[i], rows[j + 1] * width + columns[i + 1]
+    return np.stack([a, c, b, b, c, d], 1).reshape(-1, 3)
+
+
+def _grid(terrain: Terrain) -> tuple[NDArray, list[NDArray], list[NDArray], list[NDArray]]:
+    """Points, chunks of triangles, their rims (vertices round about), their coarse triangles."""
     gx, gz = np.meshgrid(terrain.xs, terrain.zs)
     points = np.stack([gx, terrain.heights, gz], -1).reshape(-1, 3)
-    columns = len(terrain.xs)
-    chunks = []
-    for j0 in range(0, len(terrain.zs) - 1, CHUNK):
-        for i0 in range(0, columns - 1, CHUNK):
-            i, j = np.meshgrid(
-                np.arange(i0, min(i0 + CHUNK, columns - 1)),
-                np.arange(j0, min(j0 + CHUNK, len(terrain.zs) - 1)),
-            )
-            a = (j * columns + i).ravel()
-            b, c, d = a + 1, a + columns, a + columns + 1
-            chunks.append(np.stack([a, c, b, b, c, d], 1).reshape(-1, 3))
-    return points, np.concatenate(chunks), chunks
+    width, depth = len(terrain.xs), len(terrain.zs)
+    chunks, rims, coarse = [], [], []
+    for j0 in range(0, depth - 1, CHUNK):
+        for i0 in range(0, width - 1, CHUNK):
+            columns = np.arange(i0, min(i0 + CHUNK, width - 1) + 1)
+            rows = np.arange(j0, min(j0 + CHUNK, depth - 1) + 1)
+            chunks.append(_cells(columns, rows, width))
+            few = [np.unique(lines[[0, len(lines) // 2, -1]]) for lines in (columns, rows)]
+            corner_x, corner_z = np.meshgrid(terrain.xs[columns], terrain.zs[rows])
+            if terrain.pond_radius(corner_x, corner_z).min() < 1.8:
+                few = [columns, rows]  # the pond's bowl stays whole, or it would hide the water
+            coarse.append(_cells(*few, width))
+            around = [few[1][0] * width + few[0], few[1][1:] * width + few[0][-1]]
+            around += [few[1][-1] * width + few[0][-2::-1], few[1][-2::-1] * width + few[0][0]]
+            rims.append(np.concatenate(around))  # clockwise seen from above, closed
+    return points, chunks, rims, coarse
 
 
 def _hills(terrain: Terrain) -> tuple[NDArray, NDArray, list[NDArray]]:
@@ -93,28 +111,47 @@ def _hills(terrain: Terrain) -> tuple[NDArray, NDArray, list[NDArray]]:
 
 def ground_mesh(terrain: Terrain, painted_low: NDArray, painted_high: NDArray) -> GroundMesh:
     """The whole ground; `painted_low`, `painted_high` are the painted map's corners (x, z)."""
-    near, near_tri, near_chunks = _grid(terrain)
+    near, near_chunks, rims, coarse = _grid(terrain)
     far, far_tri, far_chunks = _hills(terrain)
-    normals = np.concatenate([_normals(near, near_tri), _normals(far, far_tri)])
-    points = np.concatenate([near, far])
+    near_normals = _normals(near, np.concatenate(near_chunks))
+    points, normals = [near, far], [near_normals, _normals(far, far_tri)]
     chunks = near_chunks + [c + len(near) for c in far_chunks]
-    x, z = points[:, 0], points[:, 2]
+    count = len(near) + len(far)
+    simple: list[NDArray] = []
+    for rim, few in zip(rims, coarse, strict=True):
+        points.append(near[rim] - (0.0, SKIRT, 0.0))
+        normals.append(near_normals[rim])
+        k = np.arange(len(rim) - 1)
+        a, b, c, d = rim[k], rim[k + 1], count + k, count + k + 1
+        simple.append(np.concatenate([few, np.stack([a, b, c, b, d, c], 1).reshape(-1, 3)]))
+        count += len(rim)
+    vertices = np.concatenate(points)
+    x, z = vertices[:, 0], vertices[:, 2]
     inside = np.minimum.reduce(
         [x - painted_low[0], painted_high[0] - x, z - painted_low[1], painted_high[1] - z]
     )
-    boxes = [points[np.unique(c)] for c in chunks]
-    counts = np.array([len(c) for c in chunks])
-    first = np.concatenate([[0], np.cumsum(counts)[:-1]])
+    boxes = [vertices[np.unique(c)] for c in chunks]
+    whole, first = _ranges(chunks, 0)
+    less, _ = _ranges(simple, first)
+    less = np.concatenate([less, whole[len(less) :]])
     return GroundMesh(
-        points.astype("f4"),
-        normals.astype("f4"),
+        vertices.astype("f4"),
+        np.concatenate(normals).astype("f4"),
         wild_color(terrain, x, z).astype("f4"),
         smoothstep(2.0, MARGIN, inside).astype("f4"),
-        np.concatenate(chunks).astype("u4"),
-        np.stack([first, counts], 1),
+        np.concatenate(chunks + simple).astype("u4"),
+        whole,
+        less,
         np.array([b.min(0) for b in boxes]),
         np.array([b.max(0) for b in boxes]),
     )
+
+
+def _ranges(chunks: list[NDArray], first: int) -> tuple[NDArray, int]:
+    """(c, 2) first triangle and triangles of each, numbered from `first`, and where they end."""
+    counts = np.array([len(c) for c in chunks])
+    starts = first + np.concatenate([[0], np.cumsum(counts)])
+    return np.stack([starts[:-1], counts], 1), int(starts[-1])
 
 
 def pond_mesh(terrain: Terrain, step: float = 1.0) -> tuple[NDArray, NDArray]:

@@ -14,6 +14,7 @@ from .frame_block import FrameBlock
 from .programs import compile_program, set_matrix, set_uniforms
 
 HEIGHTS = 384  # texels of the height map that shadows are laid by
+COARSE_FROM = 48.0  # m, from where chunks have few triangles
 DETAIL_REACH = 26.0  # m, up to which the ground has its fine grain
 UNITS = {"shadow_map": 0, "detail_map": 1, "meadow_map": 2, "sky_map": 3}
 
@@ -50,7 +51,7 @@ class Ground:
         short = [(self._vertices, "3f4 4i1 4x1", "in_position", "in_normal")]
         self._arrays = [ctx.vertex_array(self.far, content, self._indices)]
         self._arrays += [ctx.vertex_array(p, short, self._indices) for p in self.programs[1:]]
-        self._chunks = mesh.chunks
+        self._chunks, self._coarse = mesh.chunks, mesh.coarse
         self._low, self._high = mesh.low, mesh.high
         inside = (mesh.low[:, [0, 2]] > paint.LOW + paint.MARGIN).all(axis=1)
         self._painted = inside & (mesh.high[:, [0, 2]] < paint.HIGH - paint.MARGIN).all(axis=1)
@@ -97,9 +98,12 @@ class Ground:
         near = self._painted[seen] & (away < DETAIL_REACH)
         kind = 1 + self._wet_chunks(environment)[seen] + 2 * self._live_chunks(spheres, sun)[seen]
         kind[~near] = 0
+        fine = away < COARSE_FROM
         new = (np.diff(seen, prepend=-9) != 1) | (np.diff(kind, prepend=kind[0]) != 0)
+        new |= np.diff(fine, prepend=fine[0])
         starts = np.flatnonzero(new)
         ends = np.append(starts[1:], len(seen))
+        ranges = np.where(fine[:, None], self._chunks[seen], self._coarse[seen])
         nearest = np.minimum.reduceat(away, starts)
         sharp = True
         self._sharp.use(UNITS["meadow_map"])
@@ -108,9 +112,12 @@ class Ground:
             if sharp and kind[starts[k]] == 0:
                 self._soft.use(UNITS["meadow_map"])
                 sharp = False
-            first = self._chunks[seen[starts[k]], 0]
-            count = self._chunks[seen[ends[k] - 1]].sum() - first
-            self._arrays[kind[starts[k]]].render(vertices=int(count) * 3, first=int(first) * 3)
+            array = self._arrays[kind[starts[k]]]
+            part = ranges[starts[k] : ends[k]]
+            breaks = np.flatnonzero(part[1:, 0] != part[:-1].sum(1)) + 1
+            for piece in np.split(part, breaks):
+                first, last = piece[0, 0], piece[-1].sum()
+                array.render(vertices=int(last - first) * 3, first=int(first) * 3)
         self._soft.clear(UNITS["meadow_map"])
         self._grain.clear(UNITS["detail_map"])
 

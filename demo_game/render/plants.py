@@ -11,7 +11,7 @@ from demo_game.place.scatter import VARIANTS
 
 from . import geometry
 from .frame_block import FrameBlock
-from .geometry import VERTEX_FORMAT, VERTEX_NAMES
+from .geometry import PLAIN_FORMAT, PLAIN_NAMES, VERTEX_FORMAT, VERTEX_NAMES
 from .programs import compile_program, set_matrix
 from .quality import Quality
 
@@ -23,9 +23,10 @@ class Trees:
     """Every tree; each frame those seen are sorted by shape and level."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.program = compile_program(ctx, "object.vert", "object.frag", "TREES", "LEAVES")
+        self.program = compile_program(ctx, "object.vert", "object.frag", "TREES", "LEAVES", "SOFT")
+        self.solid = compile_program(ctx, "object.vert", "object.frag", "TREES", "SOFT")
         self.shadow = compile_program(ctx, "shadow.vert", "shadow.frag", "TREES")
-        block.attach(self.program)
+        block.attach(self.program, self.solid)
         trees = place.trees
         self._shape = trees.shape
         self._center = trees.foot + np.outer(trees.height, (0.0, 0.5, 0.0))
@@ -49,7 +50,8 @@ class Trees:
         self.leaves.repeat_x = self.leaves.repeat_y = False
         self._meshes: list[list[moderngl.Buffer]] = []
         self._instances: list[moderngl.Buffer] = []
-        self._arrays: list[moderngl.VertexArray] = []
+        self._arrays: list[tuple[moderngl.VertexArray, moderngl.VertexArray]] = []
+        self._splits: list[tuple[int, int]] = []  # indices without holes, and all
         self._last: list[bytes] = [b""] * (SHAPES * flora.LEVELS)
         self._shadow_arrays: list[tuple[moderngl.VertexArray, int, moderngl.Buffer]] = []
         for shape in range(SHAPES):
@@ -57,16 +59,22 @@ class Trees:
             for level in range(flora.LEVELS):
                 mesh = place.tree_mesh(shape, level)
                 vertices = ctx.buffer(geometry.pack(mesh).tobytes())
-                indices = ctx.buffer(mesh.indices.tobytes())
+                holed = flora.holed(mesh)
+                order = np.argsort(holed, kind="stable")
+                self._splits.append((int((~holed).sum()) * 3, mesh.indices.size))
+                indices = ctx.buffer(mesh.indices[order].tobytes())
                 instances = ctx.buffer(reserve=count * 32, dynamic=True)
-                content = [(vertices, VERTEX_FORMAT, *VERTEX_NAMES)]
-                content.append((instances, INSTANCE_FORMAT, "in_foot", "in_turn"))
-                self._arrays.append(ctx.vertex_array(self.program, content, indices))
+                placed = (instances, INSTANCE_FORMAT, "in_foot", "in_turn")
+                plain = [(vertices, PLAIN_FORMAT, *PLAIN_NAMES), placed]
+                content = [(vertices, VERTEX_FORMAT, *VERTEX_NAMES), placed]
+                pair = (ctx.vertex_array(self.solid, plain, indices),
+                        ctx.vertex_array(self.program, content, indices))  # fmt: skip
+                self._arrays.append(pair)
                 self._meshes.append([vertices, indices])
                 self._instances.append(instances)
             near = self._rows[(trees.shape == shape) & ~trees.far]
             if len(near):
-                vertices, indices = self._meshes[-2]
+                vertices, indices = self._meshes[-3]
                 whole = ctx.buffer(near.tobytes())
                 content = [(vertices, "3f4 16x1", "in_position")]
                 content.append((whole, INSTANCE_FORMAT, "in_foot", "in_turn"))
@@ -82,8 +90,8 @@ class Trees:
         if not len(seen):
             return
         level = (away > quality.near_trees).astype("i8") + (away > quality.middle_trees)
-        level[self._far] = 2
-        np.maximum(level, lowest, out=level)
+        level += away > quality.far_trees
+        np.maximum(level, np.where(self._far, 2, lowest), out=level)
         group = self._shape[seen] * flora.LEVELS + level[seen]
         order = np.lexsort((away[seen], group))
         seen, group = seen[order], group[order]
@@ -97,8 +105,14 @@ class Trees:
             if raw != self._last[slot]:
                 self._instances[slot].write(raw)
                 self._last[slot] = raw
-        for _, slot, count in sorted(batches):
-            self._arrays[slot].render(instances=count)
+        batches.sort()
+        for _, slot, count in batches:  # what has no holes first: it hides the rest early
+            if self._splits[slot][0]:
+                self._arrays[slot][0].render(vertices=self._splits[slot][0], instances=count)
+        for _, slot, count in batches:
+            solid, whole = self._splits[slot]
+            if whole > solid:
+                self._arrays[slot][1].render(vertices=whole - solid, first=solid, instances=count)
 
     def draw_shadow(self, matrix: NDArray) -> None:
         """Draw those of the place itself from the sun."""
@@ -111,9 +125,9 @@ class Trees:
         for array, _, whole in self._shadow_arrays:
             array.release()
             whole.release()
-        for item in [*self._arrays, *self._instances, *(b for m in self._meshes for b in m)]:
+        for item in [*(a for pair in self._arrays for a in pair), *self._instances, *(b for m in self._meshes for b in m)]:
             item.release()
-        for item in (self.leaves, self.program, self.shadow):
+        for item in (self.leaves, self.program, self.solid, self.shadow):
             item.release()
 
 
@@ -121,7 +135,7 @@ class Meadow:
     """Grass near the camera; patches thin out with distance."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.program = compile_program(ctx, "grass.vert", "object.frag")
+        self.program = compile_program(ctx, "grass.vert", "object.frag", "SOFT")
         block.attach(self.program)
         grass = place.grass
         n = len(grass.vertices)

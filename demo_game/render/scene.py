@@ -51,7 +51,7 @@ class SceneRenderer:
         self._mirror = ctx.texture((1, 1), 4, b"\0" * 4)
         units = {"shadow_map": SHADOW_UNIT, "detail_map": DETAIL_UNIT, "leaf_map": LEAF_UNIT}
         solid = (self._statics.program, self._actors.program, self._trees.program,
-                 self._meadow.program)  # fmt: skip
+                 self._trees.solid, self._meadow.program)  # fmt: skip
         for program in solid:
             set_uniforms(program, **units)
         self._lit = (*solid, *self._ground.programs)
@@ -141,7 +141,7 @@ class SceneRenderer:
         target.depth_mask = False
         self._bind_maps()
         if self._water.seen(planes, camera) < np.inf:
-            self._water.draw((1.0 / viewport[2], 1.0 / viewport[3], 0.0, 0.0))
+            self._water.draw()
         self._pools.draw(planes, camera)
         self._halos.draw(view)
         target.depth_mask = True

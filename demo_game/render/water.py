@@ -39,9 +39,8 @@ class Water:
             return float("inf")
         return float(geometry.box_distance(camera, self._low, self._high)[0])
 
-    def draw(self, mirror: tuple[float, float, float, float]) -> None:
-        """Draw it; `mirror` is 1 / width, 1 / height of the picture and the mirror's share."""
-        self.program["mirror"] = mirror
+    def draw(self) -> None:
+        """Draw it."""
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
         self.ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
         self._array.render()
@@ -61,12 +60,13 @@ class LampPools:
         block.attach(self.program)
         self.program["tint"] = (0.55, 0.40, 0.22)
         mesh = place.ground
-        middle = mesh.vertices[mesh.indices].mean(1)
+        whole = mesh.indices[: mesh.chunks.sum(1).max()]  # without the coarse ones
+        middle = mesh.vertices[whole].mean(1)
         rows, self._ranges, first = [], [], 0
         for lamp in place.lamps[:-1]:
             x, _, z = lamp.position
             close = np.hypot(middle[:, 0] - x, middle[:, 2] - z) < POOL_RADIUS
-            points = mesh.vertices[mesh.indices[close].ravel()]
+            points = mesh.vertices[whole[close].ravel()]
             light = np.broadcast_to((*lamp.position, max(lamp.color)), (len(points), 4))
             rows.append(np.hstack([points, light]).astype("f4"))
             self._ranges.append((first, len(points)))

@@ -6,12 +6,11 @@ in vec3 in_position;
 in vec4 in_color;   // square root of the albedo, w: 1 at the tip
 in vec4 in_root;    // foot of the tuft, w: lamp light
 
+uniform sampler2DShadow shadow_map;
 uniform vec3 sun_full;
 uniform vec2 reach; // m, where blades begin to shrink, where they are gone
 
 out vec3 v_shade;
-out vec3 v_sun;
-out vec3 v_shadow;
 
 void main() {
     vec3 root = in_root.xyz;
@@ -25,8 +24,8 @@ void main() {
     vec3 ambient = sky_light(vec3(0.0, 1.0, 0.0), cover.x) * (0.62 + 0.38 * in_color.w);
     ambient += LAMP_COLOR * (LAMP_STRENGTH * in_root.w * 4.0 * sun_direction.w);
     vec4 air = haze(p);
-    v_shade = albedo * ambient * air.a + air.rgb;
-    v_sun = albedo * sun_full * (sun_share(0.25 + 0.75 * sun_direction.y, cover.x) * air.a);
-    v_shadow = (shadow_matrix * vec4(root + vec3(0.0, 0.25, 0.0), 1.0)).xyz;
+    vec3 shadow = (shadow_matrix * vec4(root + vec3(0.0, 0.25, 0.0), 1.0)).xyz;
+    float lit = sun_share(0.25 + 0.75 * sun_direction.y, cover.x) * textureLod(shadow_map, shadow, 0.0);
+    v_shade = albedo * (ambient + sun_full * lit) * air.a + air.rgb;
     gl_Position = view_projection * vec4(p, 1.0);
 }

@@ -36,29 +36,32 @@ void main() {
     albedo = mix(v_wild.rgb, albedo, v_wild.a);
     lit = mix(1.0, lit, v_wild.a);
 #endif
-    float bare = smoothstep(0.015, 0.07, albedo.r - albedo.g);  // earth is redder than grass
-#ifdef NEAR
-    vec4 detail = texture(detail_map, p.xz * 0.31);
-    albedo *= 1.0 + mix(detail.b - 0.5, 0.8 * (detail.g - 0.5), bare) * 1.35;
-#endif
-    vec3 light = v_light.rgb + sun_full * (v_light.a * lit);
+    float bare = clamp((albedo.r - albedo.g) * 20.0 - 0.3, 0.0, 1.0);  // earth is redder than grass
     float wet = v_view.w;
-    vec3 color = albedo * light;
+#ifdef NEAR
+    vec4 detail = texture(detail_map, p.xz * 0.31) - 0.5;
+    albedo *= 1.0 + mix(detail.b * 1.35, detail.g, bare);
+#endif
+    vec3 color = albedo * (v_light.rgb + sun_full * (v_light.a * lit));
 #ifdef WET
-    float puddle = smoothstep(0.52, 0.64, detail.a + 0.08 * bare) * bare * wet;
-    color *= 1.0 - wet * (0.28 + 0.20 * bare + 0.30 * puddle);
+    float puddle = clamp(detail.a * 8.5 + 0.35, 0.0, 1.0) * bare * wet;
+    color *= 1.0 - wet * (0.28 + 0.20 * bare) - 0.25 * puddle;
     vec3 view = normalize(v_view.xyz);
-    vec2 tilt = (detail.bg - 0.5) * (0.9 - 0.86 * puddle);
-    vec3 mirror = vec3(tilt.x - view.x, view.y, tilt.y - view.z);
+    vec2 tilt = detail.bg * (0.9 - 0.86 * puddle);
     float away = 1.0 - view.y;
     float away2 = away * away;
     float fresnel = 0.02 + 0.98 * away2 * away2 * away;
-    vec3 sky = sky_decode(texture(sky_map, sky_uv(mirror)).rgb);
-    color = mix(color, sky, fresnel * mix(wet * (0.14 + 0.22 * bare), 0.92, puddle));
-#endif
+    vec3 sky = texture(sky_map, sky_uv_unit(vec3(tilt - view.xz, view.y).xzy)).rgb;
+    color = tone(color * v_haze.a + v_haze.rgb);
+    // Blended as display values, which the sky's map holds; the root makes up for it.
+    float share = mix(fresnel * wet * (0.20 + 0.25 * bare), sqrt(fresnel) * 0.92, puddle);
+    color = mix(color, sky, share * v_haze.a);
+    out_color = vec4(color, 1.0);
+#else
 #ifndef NEAR
     color *= 1.0 - wet * (0.28 + 0.20 * bare);
     color += horizon_color.rgb * (wet * (0.05 + 0.14 * bare));
 #endif
     out_color = vec4(tone(color * v_haze.a + v_haze.rgb), 1.0);
+#endif
 }

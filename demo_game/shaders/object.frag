@@ -1,6 +1,9 @@
 #include "tone.glsl"
 
+#ifndef SOFT
 uniform sampler2DShadow shadow_map;
+in vec3 v_shadow;
+#endif
 #ifdef GRAIN
 uniform sampler2D detail_map;
 in vec2 v_uv;
@@ -13,8 +16,9 @@ in vec2 v_uv;
 #endif
 
 in vec3 v_shade;
+#ifndef SOFT
 in vec3 v_sun;
-in vec3 v_shadow;
+#endif
 
 out vec4 out_color;
 
@@ -25,7 +29,11 @@ void main() {
         discard;
     }
 #endif
+#ifdef SOFT
+    vec3 color = v_shade;
+#else
     vec3 color = v_shade + v_sun * texture(shadow_map, v_shadow);
+#endif
 #ifdef LEAVES
     color *= 0.5 + leaf.r;
 #endif

@@ -19,8 +19,12 @@ uniform vec4 part_light;  // x lamp light at the figure
 uniform vec3 sun_full;
 
 out vec3 v_shade;     // light of sky and lamps, haze included
+#ifdef SOFT             // shadows are looked up here, once a vertex
+uniform sampler2DShadow shadow_map;
+#else
 out vec3 v_sun;       // light of the sun where it is not in shadow
 out vec3 v_shadow;
+#endif
 #if defined(GRAIN) || defined(LEAVES)
 out vec2 v_uv;
 #endif
@@ -66,23 +70,30 @@ void main() {
     ambient += LAMP_COLOR * (LAMP_STRENGTH * lamp * sun_direction.w);
     vec3 shade = albedo * ambient;
     vec3 sun = albedo * sun_full * (sun_share(facing, cover.x) * mix(1.0, 0.3 + 0.7 * sky, leaf));
+#ifndef TREES
     vec3 view = normalize(camera.xyz - p);
     float rim = 1.0 - max(dot(n, view), 0.0);
     float gloss = wet * max(n.y, 0.0) * (0.03 + 0.5 * rim * rim * rim * rim) * (1.0 - 0.6 * leaf);
     shade += mix(horizon_color.rgb, zenith_color.rgb, 0.3) * gloss * (1.0 - 0.35 * cover.x);
+#endif
     if (material > 3.5) {
         shade = albedo * (0.5 + 3.6 * sun_direction.w);
         sun = vec3(0.0);
     }
     vec4 air = haze(p);
+    vec3 shadow = (shadow_matrix * vec4(p + n * (0.04 + 0.25 * leaf), 1.0)).xyz;
+#ifdef SOFT
+    v_shade = (shade + sun * textureLod(shadow_map, shadow, 0.0)) * air.a + air.rgb;
+#else
     v_shade = shade * air.a + air.rgb;
     v_sun = sun * air.a;
+    v_shadow = shadow;
+#endif
 #ifdef GRAIN
     v_mask = vec2(step(material, 0.5), step(0.5, material) * step(material, 1.5)) * 0.9;
 #endif
 #if defined(GRAIN) || defined(LEAVES)
     v_uv = in_uv;
 #endif
-    v_shadow = (shadow_matrix * vec4(p + n * (0.04 + 0.25 * leaf), 1.0)).xyz;
     gl_Position = view_projection * vec4(p, 1.0);
 }

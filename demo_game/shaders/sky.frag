@@ -1,4 +1,4 @@
-// The last two maps blended, so that the sky never jumps.
+// The last two maps blended, so that the sky never jumps; they are dithered already.
 uniform sampler2D sky_before;
 uniform sampler2D sky_after;
 uniform float share;
@@ -7,7 +7,5 @@ in vec2 v_uv;
 out vec4 out_color;
 
 void main() {
-    vec3 color = mix(texture(sky_before, v_uv).rgb, texture(sky_after, v_uv).rgb, share);
-    float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-    out_color = vec4(color + (grain - 0.5) / 255.0, 1.0);
+    out_color = mix(texture(sky_before, v_uv), texture(sky_after, v_uv), share);
 }

@@ -7,10 +7,7 @@ vec2 sky_uv(vec3 d) {
     return d.xz * (SKY_RIM / (size + max(d.y, -0.08 * size))) + 0.5;
 }
 
-// Scene light of display values: tone() undone.
-vec3 sky_decode(vec3 y) {
-    y = min(y, 0.96);
-    vec3 a = 6.2 * (1.0 - y);
-    vec3 b = 0.5 - 1.7 * y;
-    return (sqrt(b * b + 0.24 * a * y) - b) / (2.0 * a) + 0.004;
+// For directions that are about unit and point up.
+vec2 sky_uv_unit(vec3 d) {
+    return d.xz * (SKY_RIM / (1.0 + d.y)) + 0.5;
 }

@@ -5,8 +5,10 @@
 
 uniform sampler2D detail_map;
 uniform sampler2D sky_map;
+#ifdef MIRROR
 uniform sampler2D mirror_map;
-uniform vec4 mirror;  // 1 / viewport width, height, share of the mirror map
+uniform vec2 texel;   // 1 / viewport width, height
+#endif
 
 in vec4 v_view;
 in vec3 v_light;
@@ -18,19 +20,18 @@ out vec4 out_color;
 void main() {
     vec3 view = normalize(v_view.xyz);
     float drift = camera.w * 0.02;
-    vec2 wave = texture(detail_map, v_place * 0.11 + drift).ba
-              + texture(detail_map, v_place * 0.23 - drift * vec2(1.0, 0.6)).ab - 1.0;
-    wave *= 0.035;
-    vec3 up = vec3(-view.x + wave.x, view.y, -view.z + wave.y);
-    vec3 sky = sky_decode(texture(sky_map, sky_uv(up)).rgb);
-    vec4 scene = texture(mirror_map, gl_FragCoord.xy * mirror.xy + wave * vec2(0.6, 1.4));
-    sky = mix(sky, sky_decode(scene.rgb), scene.a * mirror.z);
+    vec2 wave = texture(detail_map, v_place * 0.13 + drift).ba - 0.5;
+    wave *= 0.05;
+    vec3 sky = texture(sky_map, sky_uv_unit(vec3(wave - view.xz, view.y).xzy)).rgb;
+#ifdef MIRROR
+    vec4 scene = texture(mirror_map, gl_FragCoord.xy * texel + wave * vec2(0.4, 1.0));
+    sky = mix(sky, scene.rgb, scene.a);
+#endif
     float away = 1.0 - max(view.y, 0.0);
-    float fresnel = 0.02 + 0.98 * away * away * away * away * away;
+    float away2 = away * away;
+    float fresnel = 0.02 + 0.98 * away2 * away2 * away;
     float deep = 1.0 - exp(-v_view.w * 2.2);
-    vec3 body = vec3(0.030, 0.042, 0.036) * v_light;
-    vec3 color = mix(body, sky * 0.96, fresnel);
-    float shore = smoothstep(0.0, 0.10, v_view.w);
-    float opacity = shore * max(deep * 0.96, fresnel);
-    out_color = vec4(tone(color * v_haze.a + v_haze.rgb), opacity);
+    vec3 body = tone(vec3(0.030, 0.042, 0.036) * v_light * v_haze.a + v_haze.rgb);
+    float shore = clamp(v_view.w * 12.0, 0.0, 1.0);
+    out_color = vec4(mix(body, sky, sqrt(fresnel)), shore * max(deep * 0.96, fresnel));
 }
