@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ctypes
 import os
+import shutil
 import sys
+import tempfile
 from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any, Protocol, TypeVar
@@ -109,5 +111,9 @@ def keep(ctx: moderngl.Context) -> Iterator[Callable[[Thing], Thing]]:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    # Mesa's shader cache writes to the home directory; tests leave nothing behind.
-    os.environ.setdefault("MESA_SHADER_CACHE_DISABLE", "true")
+    # Mesa's shader cache writes to the home directory; tests leave nothing behind. Without any
+    # cache, the software renderer would translate the same shaders anew in every test.
+    if not os.environ.keys() & {"MESA_SHADER_CACHE_DISABLE", "MESA_SHADER_CACHE_DIR"}:
+        cache = tempfile.mkdtemp(prefix="weather-ecs-shaders-")
+        os.environ["MESA_SHADER_CACHE_DIR"] = cache
+        config.add_cleanup(partial(shutil.rmtree, cache, ignore_errors=True))
