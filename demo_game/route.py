@@ -16,7 +16,7 @@ from demo_game.player import EYE_HEIGHT, Ground
 LOOK_AHEAD = 5.0  # m along the way that a walker's eyes are
 STEP_SMOOTHING = 1.0  # m over which the eye follows a step
 LOOK_SAMPLES = 1001
-LOOK_SMOOTHING = 31  # samples over which a turn of the head is eased
+LOOK_SMOOTHING = 43  # samples over which a turn of the head is eased
 PITCH_AHEAD = math.radians(-1.0)
 
 

@@ -21,14 +21,14 @@ WALKING = 1.4  # m/s
 
 EDGE_Z = -25.0  # m, where the way crosses the perimeter of the rain area
 CURTAIN = (0.0, 16.0, -60.0)  # what one looks at from outside
-OUT_OF_DOOR = (3.0, 1.0, -40.0)
+OUT_OF_DOOR = (9.6, 1.3, -50.0)
 BACK = (12.0, 14.0, -70.0)
 
 # The whole way: along the path, up the steps, into the cabin and back out of its only door, and
 # on along the path. A key names a corner, so a change here needs a look at WALK.
 WAY = (
     (0.4, 68.0), (0.9, 62.0), (3.0, 46.0), (-1.5, 24.0), (-1.0, 2.0), (0.2, -14.0), (0.5, -24.0),
-    (0.0, -38.0), (2.2, -49.6), (6.0, -54.6), (6.0, -62.4), (6.0, -54.6), (2.6, -51.8),
+    (0.0, -38.0), (2.2, -49.6), (6.0, -54.6), (6.0, -62.9), (6.0, -54.6), (2.6, -51.8),
     (-2.6, -55.0), (-5.0, -66.0), (-8.0, -86.0), (-9.5, -104.0), (-13.0, -122.0), (-14.8, -130.0),
 )  # fmt: skip
 TURN = 10  # the corner inside the cabin, where the way goes back
@@ -41,9 +41,9 @@ WALK = (
     Key(0.39, 7, "inside"),
     Key(0.49, 9, "cabin"),
     Key(0.55, TURN),
-    Key(0.68, TURN, "out"),
-    Key(0.73, 11),
-    Key(0.76, 13, "leaving"),
+    Key(0.67, TURN, "out"),
+    Key(0.725, 11),
+    Key(0.77, 13, "leaving"),
     Key(0.87, 16),
     Key(0.93, 17, "looking back"),
     Key(0.97, 18),
@@ -53,12 +53,12 @@ GLANCES = (
     Glance(0.00, CURTAIN),
     Glance(0.07, CURTAIN),
     Glance(0.20),
-    Glance(0.54),
-    Glance(0.64, OUT_OF_DOOR),
-    Glance(0.69, OUT_OF_DOOR),
-    Glance(0.77),
+    Glance(0.515),
+    Glance(0.61, OUT_OF_DOOR),
+    Glance(0.675, OUT_OF_DOOR),
+    Glance(0.775),
     Glance(0.90),
-    Glance(0.985, BACK),
+    Glance(0.98, BACK),
     Glance(1.00, BACK),
 )
 RUN = ((0.0, 5.0), (0.0, -36.0), (-12.0, -60.0), (-12.0, -115.0), (-20.0, -150.0))
