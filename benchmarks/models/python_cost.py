@@ -54,7 +54,7 @@ def measure_here(quick: bool) -> dict[str, Any]:
     times: dict[str, list[tuple[float, float]]] = {name: [] for name in models}
     rng = random.Random(1)
     gc.disable()
-    for _ in range(WARM_UP + (15 if quick else 150)):
+    for turn in range(WARM_UP + (15 if quick else 150)):
         # In a new order every time: whoever comes first, or after a large case, is slower.
         for name in rng.sample(list(models), len(models)):
             model = models[name]
@@ -65,7 +65,8 @@ def measure_here(quick: bool) -> dict[str, Any]:
             moved = thread_time()
             model.draw()
             times[name].append((moved - start, thread_time() - moved))
-        gc.collect()
+        if turn % 10 == 0:
+            gc.collect()
     for model in models.values():
         model.release()
     stage.release()
