@@ -105,7 +105,7 @@ class Renderer:
             # Before anything is drawn: a driver asked about work it has just been given starts it
             # at once, and a software driver then draws the frame in pieces.
             self.stats["gpu_ms"] = self._timer.latest_ms or 0.0
-            self.stats["drops_drawn"] = (self._counter.latest or 0) // 2 if view.containers else 0
+            self.stats["drops_drawn"] = self._counter.latest or 0 if view.containers else 0
             self._timer.begin()
             fill_view(self._view_block, view, viewport)
             self._view_block.upload()
