@@ -134,7 +134,7 @@ def roof(build: Builder, room: Builder) -> None:
         room.quad([*face, under + right * length / 2], palette.BOARD * 0.8, WOOD, 10)
         turn = axis_matrix((1.0, 0.0, 0.0), side * PITCH)
         for x in (-length / 2.0, length / 2.0):
-            at = ridge + down * slope / 2.0 + normal * 0.04 + UP * 0.0
+            at = ridge + down * slope / 2.0 + normal * 0.04
             build.box(at + (x, 0, 0), (0.06, 0.20, slope + 0.06), palette.TRIM, rotation=turn)
         build.box(eave + normal * 0.03, (length, 0.14, 0.05), palette.TRIM, rotation=turn)
     build.box((0, RIDGE + 0.17, 0), (length + 0.04, 0.07, 0.24), palette.SHINGLE * 0.8)
@@ -160,14 +160,17 @@ def foundation(build: Builder) -> None:
                     vary=0.2,
                 )
                 u += size
-    low, high, course = -1.0, RIDGE + 0.75, 0.34
-    for k, y in enumerate(np.arange(low, high, course)):
-        wide = 1.25 if y < 1.6 else 0.85
-        deep = 0.85 if y < 1.6 else 0.62
+    _chimney(build)
+
+
+def _chimney(build: Builder) -> None:
+    top, course = RIDGE + 0.75, 0.34
+    for k, y in enumerate(np.arange(-1.0, top, course).tolist()):
+        wide, deep = (1.25, 0.85) if y < 1.6 else (0.85, 0.62)
         jitter = build.random.uniform(-0.02, 0.02, 2)
         at = (WIDTH / 2 + deep / 2 - 0.02 + jitter[0], y + course / 2, -0.6 + jitter[1])
         color = palette.STONE_WARM if k % 3 else palette.STONE_COOL
         size = (deep, course - 0.015, wide)
         build.box(at, size, color, material=STONE, vary=0.12, cuts=2)
-    at = (WIDTH / 2 + 0.29, high + 0.10, -0.6)
-    build.box(at, (0.80, 0.12, 1.02), palette.STONE_COOL, material=STONE)
+    cap = (WIDTH / 2 + 0.29, top + 0.10, -0.6)
+    build.box(cap, (0.80, 0.12, 1.02), palette.STONE_COOL, material=STONE)

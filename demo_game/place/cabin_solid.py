@@ -94,14 +94,14 @@ def blocks() -> list[Block]:
     """All of them."""
     found = floor_blocks() + wall_blocks() + roof_blocks()
     for x in cabin_porch.POSTS:
-        at = (x, cabin_porch.ROOF_LOW / 2.0, cabin_porch.POST_Z)
-        found.append(_block(at, (0.14, cabin_porch.ROOF_LOW, 0.14)))
+        foot = (x, cabin_porch.ROOF_LOW / 2.0, cabin_porch.POST_Z)
+        found.append(_block(foot, (0.14, cabin_porch.ROOF_LOW, 0.14)))
     for (x0, z0), (x1, z1) in cabin_porch.rails():
-        size = (max(x1 - x0, 0.07), 0.95, max(z1 - z0, 0.07))
-        found.append(_block(((x0 + x1) / 2.0, 0.475, (z0 + z1) / 2.0), size))
+        rail = (max(x1 - x0, 0.07), 0.95, max(z1 - z0, 0.07))
+        found.append(_block(((x0 + x1) / 2.0, 0.475, (z0 + z1) / 2.0), rail))
     center, size, turn = cabin_porch.door_box()
     found.append(_block(center, size, rotation=yaw_matrix(turn), heading=turn))
-    found += [_block(at, size) for at, size in cabin_room.FURNITURE]
+    found += [_block(at, extent) for at, extent in cabin_room.FURNITURE]
     tall = RIDGE + 1.75
     found.append(_block((WIDTH / 2 + 0.40, tall / 2.0 - 1.0, -0.6), (0.80, tall, 1.2)))
     return found

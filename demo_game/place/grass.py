@@ -86,9 +86,7 @@ def grass(terrain: Terrain, seed: int = 0, blades: int = 4) -> Grass:
     _flower_heads(vertices, shades, kind, tip, side, rng)
     starts = np.flatnonzero(np.any(np.diff(cell, axis=0, prepend=cell[:1] - 1) != 0, axis=1))
     counts = np.diff(np.append(starts, n))
-    centers = np.array(
-        [root[s : s + c, 0].mean(0) for s, c in zip(starts, counts, strict=True)]
-    )
+    centers = np.array([root[s : s + c, 0].mean(0) for s, c in zip(starts, counts, strict=True)])
     each = blades * 3
     return Grass(
         vertices.reshape(-1, 3).astype("f4"),

@@ -61,11 +61,19 @@ def _normals(points: NDArray, triangles: NDArray) -> NDArray:
 
 def _cells(columns: NDArray, rows: NDArray, width: int) -> NDArray:
     """(n, 3) triangles between grid lines, of vertices numbered row by row, `width` a row."""
-    i, j = np.meshgrid(np.arange(len(columns) - 1), np.arange(len(rows) - 1))
-    i, j = i.ravel(), j.ravel()
+    grid = np.meshgrid(np.arange(len(columns) - 1), np.arange(len(rows) - 1))
+    i, j = grid[0].ravel(), grid[1].ravel()
     a, b = rows[j] * width + columns[i], rows[j] * width + columns[i + 1]
     c, d = rows[j + 1] * width + columns[i], rows[j + 1] * width + columns[i + 1]
     return np.stack([a, c, b, b, c, d], 1).reshape(-1, 3)
+
+
+def _rim(columns: NDArray, rows: NDArray, width: int) -> NDArray:
+    """Vertices round about a block of cells, closed: x up, z up, x down, z down."""
+    return np.concatenate([
+        rows[0] * width + columns, rows[1:] * width + columns[-1],
+        rows[-1] * width + columns[-2::-1], rows[-2::-1] * width + columns[0],
+    ])  # fmt: skip
 
 
 def _grid(terrain: Terrain) -> tuple[NDArray, list[NDArray], list[NDArray], list[NDArray]]:
@@ -79,18 +87,16 @@ def _grid(terrain: Terrain) -> tuple[NDArray, list[NDArray], list[NDArray], list
             columns = np.arange(i0, min(i0 + CHUNK, width - 1) + 1)
             rows = np.arange(j0, min(j0 + CHUNK, depth - 1) + 1)
             chunks.append(_cells(columns, rows, width))
-            few = [np.unique(lines[[0, len(lines) // 2, -1]]) for lines in (columns, rows)]
+            few_columns, few_rows = (np.unique(n[[0, len(n) // 2, -1]]) for n in (columns, rows))
             corner_x, corner_z = np.meshgrid(terrain.xs[columns], terrain.zs[rows])
             if terrain.pond_radius(corner_x, corner_z).min() < 1.8:
-                few = [columns, rows]  # the pond's bowl stays whole, or it would hide the water
-            coarse.append(_cells(*few, width))
-            around = [few[1][0] * width + few[0], few[1][1:] * width + few[0][-1]]
-            around += [few[1][-1] * width + few[0][-2::-1], few[1][-2::-1] * width + few[0][0]]
-            rims.append(np.concatenate(around))  # clockwise seen from above, closed
+                few_columns, few_rows = columns, rows  # coarse, the bowl would hide the water
+            coarse.append(_cells(few_columns, few_rows, width))
+            rims.append(_rim(few_columns, few_rows, width))
     return points, chunks, rims, coarse
 
 
-def _hills(terrain: Terrain) -> tuple[NDArray, NDArray, list[NDArray]]:
+def _hills(terrain: Terrain) -> tuple[NDArray, list[NDArray]]:
     angle = np.linspace(0.0, 2.0 * np.pi, HILL_SECTORS + 1)
     r, a = np.meshgrid(np.array(HILL_RINGS), angle, indexing="ij")
     x, z = r * np.sin(a), r * np.cos(a) - 40.0
@@ -106,15 +112,15 @@ def _hills(terrain: Terrain) -> tuple[NDArray, NDArray, list[NDArray]]:
         a0 = (j * n + i).ravel()
         b, c, d = a0 + 1, a0 + n, a0 + n + 1
         chunks.append(np.stack([a0, c, b, b, c, d], 1).reshape(-1, 3))
-    return points, np.concatenate(chunks), chunks
+    return points, chunks
 
 
 def ground_mesh(terrain: Terrain, painted_low: NDArray, painted_high: NDArray) -> GroundMesh:
     """The whole ground; `painted_low`, `painted_high` are the painted map's corners (x, z)."""
     near, near_chunks, rims, coarse = _grid(terrain)
-    far, far_tri, far_chunks = _hills(terrain)
+    far, far_chunks = _hills(terrain)
     near_normals = _normals(near, np.concatenate(near_chunks))
-    points, normals = [near, far], [near_normals, _normals(far, far_tri)]
+    points, normals = [near, far], [near_normals, _normals(far, np.concatenate(far_chunks))]
     chunks = near_chunks + [c + len(near) for c in far_chunks]
     count = len(near) + len(far)
     simple: list[NDArray] = []

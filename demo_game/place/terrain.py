@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -85,9 +86,15 @@ class Terrain:
         bowl = np.maximum(bowl, self.pond_level - 1.3)
         return height + (bowl - height) * smoothstep(1.7, 1.08, q)
 
-    def height(self, x: ArrayLike, z: ArrayLike) -> float | NDArray:
+    @overload
+    def height(self, x: float, z: float) -> float: ...
+
+    @overload
+    def height(self, x: NDArray, z: NDArray) -> NDArray: ...
+
+    def height(self, x: float | NDArray, z: float | NDArray) -> float | NDArray:
         """Height of the drawn ground, m; a float for scalars, an array for arrays."""
-        if isinstance(x, (int, float)) and isinstance(z, (int, float)):
+        if not isinstance(x, np.ndarray) and not isinstance(z, np.ndarray):
             return self._height(x, z)
         x, z = np.broadcast_arrays(np.asarray(x, "f8"), np.asarray(z, "f8"))
         i = np.clip(np.searchsorted(self.xs, x, "right") - 1, 0, len(self.xs) - 2)
@@ -110,7 +117,7 @@ class Terrain:
         d = far[i + 1]
         return d + (1.0 - u) * (far[i] - d) + (1.0 - v) * (near[i + 1] - d)
 
-    def normal(self, x: ArrayLike, z: ArrayLike, step: float = 1.0) -> NDArray:
+    def normal(self, x: float | NDArray, z: float | NDArray, step: float = 1.0) -> NDArray:
         """(..., 3) unit normal of the ground, its slope taken over two steps, m."""
         x, z = np.asarray(x, "f8"), np.asarray(z, "f8")
         dx = np.asarray(self.height(x + step, z)) - np.asarray(self.height(x - step, z))

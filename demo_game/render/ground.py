@@ -11,9 +11,8 @@ from demo_game.place import Place, paint
 from . import geometry
 from .environment import Environment
 from .frame_block import FrameBlock
-from .programs import compile_program, set_matrix, set_uniforms
+from .programs import compile_program, release_all, set_uniforms
 
-HEIGHTS = 384  # texels of the height map that shadows are laid by
 COARSE_FROM = 48.0  # m, from where chunks have few triangles
 DETAIL_REACH = 26.0  # m, up to which the ground has its fine grain
 UNITS = {"shadow_map": 0, "detail_map": 1, "meadow_map": 2, "sky_map": 3}
@@ -95,9 +94,9 @@ class Ground:
         if not len(seen):
             return
         away = geometry.box_distance(camera, self._low[seen], self._high[seen])
-        near = self._painted[seen] & (away < DETAIL_REACH)
-        kind = 1 + self._wet_chunks(environment)[seen] + 2 * self._live_chunks(spheres, sun)[seen]
-        kind[~near] = 0
+        near: NDArray = self._painted[seen] & (away < DETAIL_REACH)
+        wet, live = self._wet_chunks(environment)[seen], self._live_chunks(spheres, sun)[seen]
+        kind: NDArray = np.where(near, 1 + wet + 2 * live, 0)
         fine = away < COARSE_FROM
         new = (np.diff(seen, prepend=-9) != 1) | (np.diff(kind, prepend=kind[0]) != 0)
         new |= np.diff(fine, prepend=fine[0])
@@ -123,43 +122,9 @@ class Ground:
 
     def release(self) -> None:
         """Give everything back."""
-        for item in (*self._arrays, self._vertices, self._indices, self.map, self._sharp,
-                     self._soft, self._grain, *self.programs):  # fmt: skip
-            item.release()
-
-
-class GroundShadow:
-    """Lays the shadows of what stands still on the painted map, where the sun has moved."""
-
-    def __init__(self, ctx: moderngl.Context, place: Place, painted: moderngl.Texture) -> None:
-        self.ctx, self.map = ctx, painted
-        self._program = compile_program(ctx, "sky_bake.vert", "ground_shadow.frag")
-        size = paint.HIGH - paint.LOW
-        window = (*paint.LOW.tolist(), *(1.0 / size).tolist())
-        set_uniforms(self._program, map_window=window, shadow_map=0, height_map=1)
-        xs = paint.LOW[0] + (np.arange(HEIGHTS) + 0.5) * size[0] / HEIGHTS
-        zs = paint.LOW[1] + (np.arange(HEIGHTS) + 0.5) * size[1] / HEIGHTS
-        heights = np.asarray(place.height(*np.meshgrid(xs, zs)), "f4")
-        self._heights = ctx.texture((HEIGHTS, HEIGHTS), 1, heights.tobytes(), dtype="f4")
-        self._target = ctx.framebuffer([painted])
-        self._target.color_mask = False, False, False, True
-        self._quad = ctx.buffer(np.array([-1, -1, 3, -1, -1, 3], "f4"))
-        self._array = ctx.vertex_array(self._program, [(self._quad, "2f4", "in_position")])
-
-    def update(self, shadow_map: moderngl.Texture, lookup: NDArray) -> None:
-        """Write the map's alpha."""
-        set_matrix(self._program, "shadow_matrix", lookup)
-        self.ctx.enable_only(moderngl.NOTHING)
-        self._target.use()
-        shadow_map.use(0)
-        self._heights.use(1)
-        self._array.render()
-        self.map.build_mipmaps()
-
-    def release(self) -> None:
-        """Give everything back."""
-        for item in (self._array, self._quad, self._target, self._heights, self._program):
-            item.release()
+        samplers = self._sharp, self._soft, self._grain
+        release_all((*self._arrays, self._vertices, self._indices, self.map, *samplers))
+        release_all(self.programs)
 
 
 def _sampler(

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from functools import cache
 from importlib import resources
+from typing import Protocol
 
 import moderngl
 from numpy.typing import NDArray
@@ -49,3 +51,21 @@ def set_matrix(program: moderngl.Program, name: str, *matrices: NDArray) -> None
     """Set a matrix uniform, or an array of them, from (4, 4) arrays that act on columns."""
     raw = b"".join(m.T.astype("f4").tobytes() for m in matrices)
     program[name].write(raw)  # type: ignore[union-attr]
+
+
+class Releasable(Protocol):
+    """Anything of OpenGL's that is given back."""
+
+    def release(self) -> None:
+        """Give it back."""
+
+
+def release_all(items: Iterable[Releasable]) -> None:
+    """Give everything back, in this order."""
+    for item in items:
+        item.release()
+
+
+def scissor(framebuffer: moderngl.Framebuffer, box: tuple[int, int, int, int] | None) -> None:
+    """Restrict drawing to (x, y, width, height), or lift the restriction."""
+    framebuffer.scissor = box  # type: ignore[assignment]  # moderngl takes None as well

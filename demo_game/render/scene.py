@@ -13,13 +13,15 @@ from demo_game.place import Place, paint
 from . import geometry
 from .environment import Environment
 from .frame_block import FrameBlock, as_matrix, unit
-from .ground import Ground, GroundShadow
-from .plants import Meadow, Trees
-from .programs import set_uniforms
+from .ground import Ground
+from .ground_shadow import GroundShadow
+from .meadow import Meadow
+from .programs import release_all, scissor, set_uniforms
 from .quality import level
 from .shadows import Shadows
 from .sky import Sky
 from .statics import Actors, Statics
+from .trees import Trees
 from .water import Halos, LampPools, Water
 
 SHADOW_UNIT, DETAIL_UNIT, MEADOW_UNIT, SKY_UNIT, MIRROR_UNIT, LEAF_UNIT = range(6)
@@ -104,7 +106,7 @@ class SceneRenderer:
         self._sky.paint(camera, environment)
         target.use()
         target.viewport = viewport
-        target.scissor = None
+        scissor(target, None)
         target.depth_mask = True
         target.clear(0.0, 0.0, 0.0, 1.0)
         self._draw_solid(planes, camera, environment)
@@ -165,7 +167,6 @@ class SceneRenderer:
         if self._released:
             return
         self._released = True
-        for item in (self._halos, self._pools, self._water, self._meadow, self._trees, self._actors,
-                     self._statics, self._ground_shadow, self._ground, self._shadows, self._sky, self._detail,
-                     self._mirror, self._block):  # fmt: skip
-            item.release()
+        release_all((self._halos, self._pools, self._water, self._meadow, self._trees))
+        release_all((self._actors, self._statics, self._ground_shadow, self._ground))
+        release_all((self._shadows, self._sky, self._detail, self._mirror, self._block))

@@ -8,7 +8,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from .programs import compile_program
+from .programs import compile_program, release_all, scissor
 
 LOW = np.array([-64.0, -4.0, -170.0])  # m, what the map covers
 HIGH = np.array([64.0, 22.0, 94.0])
@@ -68,7 +68,7 @@ class Shadows:
         self.lookup = to_map @ self.matrix
         target = self._still_target
         target.use()
-        target.scissor = None
+        scissor(target, None)
         target.clear(depth=1.0)
         target.scissor = (2, 2, self.size - 4, self.size - 4)  # the rim stays lit
         self.ctx.enable_only(moderngl.DEPTH_TEST)
@@ -96,7 +96,7 @@ class Shadows:
         if boxes:
             draw(self.matrix)
         self.ctx.polygon_offset = 0.0, 0.0
-        self._live_target.scissor = None
+        scissor(self._live_target, None)
         self._dirty = boxes
 
     def _box(self, sphere: tuple[NDArray, float]) -> tuple[int, int, int, int] | None:
@@ -115,13 +115,12 @@ class Shadows:
         self.still.use(0)
         self._copy["depth_map"] = 0
         for box in boxes:
-            self._live_target.scissor = box
+            scissor(self._live_target, box)
             self._copy_array.render()
-        self._live_target.scissor = None
+        scissor(self._live_target, None)
         self.ctx.depth_func = "<="
 
     def release(self) -> None:
         """Give everything back."""
-        for item in (self._copy_array, self._quad, self._copy, self._live_target,
-                     self._still_target, self.live, self.still):  # fmt: skip
-            item.release()
+        release_all((self._copy_array, self._quad, self._copy, self._live_target,
+                     self._still_target, self.live, self.still))  # fmt: skip

@@ -10,7 +10,7 @@ from demo_game.place import paint
 
 from .environment import Environment
 from .frame_block import FrameBlock
-from .programs import compile_program, set_matrix
+from .programs import compile_program, release_all, scissor, set_matrix
 
 JUMP = 25.0  # m the camera moves in one map's time that calls for a fresh one at once
 CHANGE = 0.12  # likewise for colours and cover
@@ -62,17 +62,17 @@ class Sky:
         self._rows(2, self._row, rows)
         self._row += rows
         if self._row >= self.size:
-            for items in (self.maps, self._targets):
-                items.append(items.pop(0))
+            self.maps.append(self.maps.pop(0))
+            self._targets.append(self._targets.pop(0))
             self._row = 0
             self._painted = self._state
 
     def _rows(self, target: int, first: int, count: int) -> None:
         framebuffer = self._targets[target]
         framebuffer.use()
-        framebuffer.scissor = (0, first, self.size, count)
+        scissor(framebuffer, (0, first, self.size, count))
         self._bake_array.render()
-        framebuffer.scissor = None
+        scissor(framebuffer, None)
 
     def draw(self, view: NDArray, projection: NDArray) -> None:
         """Fill what nothing has covered; depth test on, at the far end."""
@@ -88,9 +88,10 @@ class Sky:
 
     def release(self) -> None:
         """Give everything back."""
-        for item in (self._show_array, self._bake_array, self._quad, self._grid, self._show,
-                     self._bake, *self._targets, *self.maps, self._clouds):  # fmt: skip
-            item.release()
+        release_all((self._show_array, self._bake_array, self._quad, self._grid))
+        release_all((self._show, self._bake))
+        release_all(self._targets)
+        release_all((*self.maps, self._clouds))
 
 
 def _grid(columns: int = 24, rows: int = 16) -> NDArray:

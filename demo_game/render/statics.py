@@ -12,7 +12,7 @@ from demo_game.place.mesh import merge
 from . import geometry
 from .frame_block import FrameBlock
 from .geometry import PLAIN_FORMAT, PLAIN_NAMES, VERTEX_FORMAT, VERTEX_NAMES
-from .programs import compile_program, set_matrix
+from .programs import compile_program, release_all, set_matrix
 
 CABIN_NEAR = 55.0  # m, within which the cabin has all its planks
 # m, from where to where a mesh is drawn; others always are
@@ -51,16 +51,16 @@ class Statics:
         self._low, self._high = np.concatenate(lows), np.concatenate(highs)
         self._reach = np.concatenate(reach)
         cabin = np.array([n.startswith(("cabin", "room")) for n in names])
-        whole = self._low[cabin].min(0), self._high[cabin].max(0)  # its meshes change as one
+        low, high = self._low[cabin].min(0), self._high[cabin].max(0)  # all change at once
         self._switch = (
-            np.where(cabin[:, None], whole[0], self._low),
-            np.where(cabin[:, None], whole[1], self._high),
+            np.where(cabin[:, None], low, self._low),
+            np.where(cabin[:, None], high, self._high),
         )
         self._shadow_count = index_count - place.meshes["cabin_far"].indices.size
-        content = [(self._vertices, VERTEX_FORMAT, *VERTEX_NAMES)]
-        self._array = ctx.vertex_array(self.program, content, self._indices)
-        content = [(self._vertices, "3f4 16x1", "in_position")]
-        self._shadow_array = ctx.vertex_array(self.shadow, content, self._indices)
+        whole = (self._vertices, VERTEX_FORMAT, *VERTEX_NAMES)
+        self._array = ctx.vertex_array(self.program, [whole], self._indices)
+        bare = (self._vertices, "3f4 16x1", "in_position")
+        self._shadow_array = ctx.vertex_array(self.shadow, [bare], self._indices)
 
     def draw(self, planes: NDArray, camera: NDArray) -> None:
         """Draw what is seen, near to far."""
@@ -79,9 +79,8 @@ class Statics:
 
     def release(self) -> None:
         """Give everything back."""
-        for item in (self._array, self._shadow_array, self._vertices, self._indices,
-                     self.program, self.shadow):  # fmt: skip
-            item.release()
+        release_all((self._array, self._shadow_array, self._vertices, self._indices))
+        release_all((self.program, self.shadow))
 
 
 class Actors:
@@ -97,10 +96,10 @@ class Actors:
         self._indices = ctx.buffer(mesh.indices.tobytes())
         self._split = place.meshes["figure"].indices.size
         self._total = mesh.indices.size
-        content = [(self._vertices, PLAIN_FORMAT, *PLAIN_NAMES)]
-        self._array = ctx.vertex_array(self.program, content, self._indices)
-        content = [(self._vertices, "3f4 8x1 4f1 4x1", "in_position", "in_extra")]
-        self._shadow_array = ctx.vertex_array(self.shadow, content, self._indices)
+        whole = (self._vertices, PLAIN_FORMAT, *PLAIN_NAMES)
+        self._array = ctx.vertex_array(self.program, [whole], self._indices)
+        bare = (self._vertices, "3f4 8x1 4f1 4x1", "in_position", "in_extra")
+        self._shadow_array = ctx.vertex_array(self.shadow, [bare], self._indices)
         self._sails = place.meshes["sails"]
         self._lamps = np.array([lamp.position for lamp in place.lamps])
         self._strength = np.array([max(lamp.color) for lamp in place.lamps])
@@ -136,6 +135,5 @@ class Actors:
 
     def release(self) -> None:
         """Give everything back."""
-        for item in (self._array, self._shadow_array, self._vertices, self._indices,
-                     self.program, self.shadow):  # fmt: skip
-            item.release()
+        release_all((self._array, self._shadow_array, self._vertices, self._indices))
+        release_all((self.program, self.shadow))

@@ -1,4 +1,4 @@
-"""The pond's still water, the lamps' light on the ground and their glow: what is blended over the rest."""
+"""What is blended over the rest: the pond, the lamps' light on the ground, their glow."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from demo_game.place.ground_mesh import pond_mesh
 
 from . import geometry
 from .frame_block import FrameBlock
-from .programs import compile_program, set_matrix, set_uniforms
+from .programs import compile_program, release_all, set_matrix, set_uniforms
 
 POOL_RADIUS = 9.0  # m
 UNITS = {"detail_map": 1, "sky_map": 3, "mirror_map": 4}
@@ -47,8 +47,7 @@ class Water:
 
     def release(self) -> None:
         """Give everything back."""
-        for item in (self._array, self._vertices, self._indices, self.program):
-            item.release()
+        release_all((self._array, self._vertices, self._indices, self.program))
 
 
 class LampPools:
@@ -88,8 +87,7 @@ class LampPools:
 
     def release(self) -> None:
         """Give everything back."""
-        for item in (self._array, self._vertices, self.program):
-            item.release()
+        release_all((self._array, self._vertices, self.program))
 
 
 class Halos:
@@ -115,5 +113,4 @@ class Halos:
 
     def release(self) -> None:
         """Give everything back."""
-        for item in (self._array, self._corners, self._lamps, self.program):
-            item.release()
+        release_all((self._array, self._corners, self._lamps, self.program))

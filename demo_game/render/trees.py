@@ -1,4 +1,4 @@
-"""Trees in three levels of detail, instanced; grass in patches."""
+"""Trees in levels of detail, instanced."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from demo_game.place.scatter import VARIANTS
 from . import geometry
 from .frame_block import FrameBlock
 from .geometry import PLAIN_FORMAT, PLAIN_NAMES, VERTEX_FORMAT, VERTEX_NAMES
-from .programs import compile_program, set_matrix
+from .programs import compile_program, release_all, set_matrix
 from .quality import Quality
 
 SHAPES = 4 * VARIANTS
@@ -123,46 +123,9 @@ class Trees:
     def release(self) -> None:
         """Give everything back."""
         for array, _, whole in self._shadow_arrays:
-            array.release()
-            whole.release()
-        for item in [*(a for pair in self._arrays for a in pair), *self._instances, *(b for m in self._meshes for b in m)]:
-            item.release()
-        for item in (self.leaves, self.program, self.solid, self.shadow):
-            item.release()
-
-
-class Meadow:
-    """Grass near the camera; patches thin out with distance."""
-
-    def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.program = compile_program(ctx, "grass.vert", "object.frag", "SOFT")
-        block.attach(self.program)
-        grass = place.grass
-        n = len(grass.vertices)
-        data = np.zeros(n, [("position", "f4", 3), ("color", "u1", 4), ("root", "f4", 4)])
-        data["position"] = grass.vertices
-        data["color"][:, :3] = np.round(np.sqrt(np.clip(grass.colors, 0, 1)) * 255)
-        data["color"][:, 3] = np.round(grass.sway * 255)
-        data["root"][:, :3] = grass.roots
-        lamps = [(lamp.position, max(lamp.color)) for lamp in place.lamps]
-        up = np.zeros((n, 3)) + (0.0, 1.0, 0.0)
-        data["root"][:, 3] = bake.lamp_light(grass.roots.astype("f8"), up, lamps, []) / 4.0
-        self._patches, self._centers = grass.patches, grass.centers
-        self._vertices = ctx.buffer(data.tobytes())
-        content = [(self._vertices, "3f4 4f1 4f4", "in_position", "in_color", "in_root")]
-        self._array = ctx.vertex_array(self.program, content)
-
-    def draw(self, planes: NDArray, camera: NDArray, quality: Quality) -> None:
-        """Draw the patches within reach."""
-        reach = quality.grass_reach
-        self.program["reach"] = (reach * 0.6, reach)
-        away = np.linalg.norm(self._centers - camera, axis=1)
-        side = self._centers @ planes[:, :3].T + planes[:, 3]
-        seen = (side > -8.0).all(axis=1) & (away < reach + 6.0)
-        for first, count in self._patches[seen].tolist():
-            self._array.render(moderngl.TRIANGLES, vertices=count, first=first)
-
-    def release(self) -> None:
-        """Give everything back."""
-        for item in (self._array, self._vertices, self.program):
-            item.release()
+            release_all((array, whole))
+        for pair in self._arrays:
+            release_all(pair)
+        for buffers in self._meshes:
+            release_all(buffers)
+        release_all((*self._instances, self.leaves, self.program, self.solid, self.shadow))
