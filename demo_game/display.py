@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import pyglet
 
+from demo_game.preparing import Abandoned
 from demo_game.settings import Settings
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ def make_window(
 ) -> GameWindow:
     """The game's window with the newest OpenGL there is.
 
-    Raises NoDisplay, or the weather's errors.
+    Raises NoDisplay, Abandoned, or the weather's errors.
     """
     pyglet.options.dpi_scaling = "real"
     try:
@@ -52,7 +53,10 @@ def make_window(
 
 def open_window(settings: Settings, *, seed: int = 0, preset: str = "heavy") -> int:
     """Play until the window is closed; returns the exit code."""
-    window = make_window(settings, seed=seed, preset=preset)
+    try:
+        window = make_window(settings, seed=seed, preset=preset)
+    except Abandoned:
+        return 0
     try:
         window.play()
     finally:

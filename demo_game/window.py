@@ -14,11 +14,14 @@ from demo_game.gamepad import Gamepads
 from demo_game.input import Controls
 from demo_game.pictures import save_screenshot
 from demo_game.play_keys import play_key
+from demo_game.preparing import prepare_place
 from demo_game.settings import Settings
 from demo_game.ui.menu import MenuActions, MouseRest, pause_menu
 from demo_game.ui.minimap import MapPlace
 from demo_game.ui.overlay import Overlay, Screen
+from demo_game.ui.preparing import PreparingView
 from demo_game.ui.surface import prepare_for_pyglet, read_pixels
+from demo_game.ui.theme import Frame
 
 TITLE = "The Walk"
 LONGEST_DT = 0.25  # s; a pause of the machine does not move the player on
@@ -40,16 +43,29 @@ class GameWindow(pyglet.window.Window):
     ) -> None:
         self.screen_shown = Screen.START
         self.ready = False
+        self._closed_early = False
         super().__init__(
             *size, caption=TITLE, resizable=True, vsync=True, config=config, visible=False
         )
+        try:
+            self._begin(settings, seed, preset)
+        except BaseException:
+            super().close()
+            raise
+
+    def _begin(self, settings: Settings, seed: int, preset: str) -> None:
         self.set_minimum_size(*SMALLEST)
         self.settings = settings
         self.controls = Controls()
+        if settings.fullscreen:
+            self.set_fullscreen(True)
+        self.set_visible(True)
         self.switch_to()
         self._gl = moderngl.get_context()
-        self.game = Game(self._gl, settings, seed=seed, preset=preset)
-        menu = pause_menu(
+        place = prepare_place(seed, self._draw_preparing)
+        self.switch_to()
+        self.game = Game(self._gl, settings, place=place, seed=seed, preset=preset)
+        self._menu = pause_menu(
             settings,
             MenuActions(
                 resume=self.resume,
@@ -58,19 +74,27 @@ class GameWindow(pyglet.window.Window):
                 quit=self.close,
             ),
         )
-        self._menu = menu
         self._help_from = Screen.PAUSE
         self._mouse_rest = MouseRest()
-        self.overlay = Overlay(menu, _map_place(self.game))
+        self.overlay = Overlay(self._menu, _map_place(self.game))
         self._gamepads = Gamepads(self.controls, pause=self._toggle_pause)
         self._ms = 16.0
         self._last = clock.perf_counter()
         self._wants_picture = False
         self.ready = True
-        if settings.fullscreen:
-            self.set_fullscreen(True)
         self._lay_out()
-        self.set_visible(True)
+
+    def _draw_preparing(self, seconds: float) -> bool:
+        self.dispatch_events()
+        if self._closed_early or self.width < 1 or self.height < 1:
+            return not self._closed_early
+        self.switch_to()
+        prepare_for_pyglet(self)
+        view = PreparingView(Frame(self.width, self.height))
+        view.draw(seconds)
+        view.delete()
+        self.flip()
+        return True
 
     def play(self) -> None:
         """Run until the window is closed."""
@@ -172,7 +196,9 @@ class GameWindow(pyglet.window.Window):
     def on_key_press(self, symbol: int, modifiers: int) -> bool:
         """A key for the screen that is shown, or for any of them."""
         name = key.symbol_string(symbol)
-        if name == "F1":
+        if not self.ready:
+            self._closed_early = self._closed_early or name == "ESCAPE"
+        elif name == "F1":
             self._back() if self.screen_shown is Screen.HELP else self._open_help()
         elif name == "F3":
             self.overlay.show_readout = not self.overlay.show_readout
@@ -213,6 +239,8 @@ class GameWindow(pyglet.window.Window):
 
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
         """Look, or point at a row of the menu."""
+        if not self.ready:
+            return
         if self.screen_shown is Screen.PLAY:
             speed = self.settings.look_speed
             rise = -dy if self.settings.invert else dy
@@ -226,6 +254,8 @@ class GameWindow(pyglet.window.Window):
 
     def on_mouse_press(self, x: int, y: int, button: int, modifiers: int) -> None:
         """Begin, choose, or close the help page."""
+        if not self.ready:
+            return
         if self.screen_shown is Screen.START:
             self.resume()
         elif self.screen_shown is Screen.HELP:
@@ -248,7 +278,9 @@ class GameWindow(pyglet.window.Window):
 
     def on_close(self) -> None:
         """The window's own close button."""
-        self.close()
+        if self.ready:
+            self.close()
+        self._closed_early = True
 
     def _lay_out(self) -> None:
         if self.width >= 1 and self.height >= 1:
