@@ -113,6 +113,26 @@ class RippleData:
     draw: bool
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class WetTileData:
+    """Wet cells of one size, in tiles of 8 by 8."""
+
+    cell: float  # m
+    places: NDArray  # (n, 2) int64: tile (i, j) begins at (8 i, 8 j) cells, along x and z
+    water: NDArray  # (n, 8, 8) float32, mm; rows along z
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WetnessData:
+    """Water on level ground under the open sky: where the GPU's own map begins, and beyond it."""
+
+    number: int  # another one where the ground is another, as when a snapshot was restored
+    ticks: int  # seconds of weather done
+    levels: tuple[WetTileData, ...]
+    waited: float  # s up to the tick for which `rows` have not been entered into the tiles
+    rows: NDArray  # AREA_DTYPE
+
+
 @dataclass(frozen=True, slots=True)
 class FrameData:
     """One frame's weather, world axes, SI units unless a field says otherwise."""
@@ -127,6 +147,7 @@ class FrameData:
     occluders: tuple[OccluderData, ...] = ()
     splash: SplashLook | None = None  # None: no splashes
     ripples: tuple[RippleData, ...] = ()
+    wetness: WetnessData | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,17 +1,17 @@
 """`Sample`: the weather at one place, for the game's own rules; plain numbers, no OpenGL.
 
-The formulas are those of `physics.ellipse.edge_factor`, `physics.drops.extinction` and
-`physics.optics`, written for one point at a time: a game asks for thousands of points a frame.
+The formulas are those of `physics.drops.extinction` and `physics.optics`, written for one point at
+a time: a game asks for thousands of points a frame.
 """
 
 from __future__ import annotations
 
-import math
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from weather_ecs.frame import FrameData
 from weather_ecs.physics.drops import extinction
 from weather_ecs.physics.optics import CONTRAST
+from weather_ecs.physics.rain_field import RainField
 
 CLEAR_VISIBILITY = 50_000.0  # m, in clean air
 TEMPERATURE = 15.0  # degrees Celsius, the standard atmosphere at sea level
@@ -30,23 +30,34 @@ class Sample(NamedTuple):
     sheltered: bool  # something overhead keeps the rain off
     wind: tuple[float, float, float]  # m/s, world axes
     visibility: float  # m
-    wetness: float  # mm of water on the ground
+    wetness: float  # mm of water on level ground there; under shelter 0
     snow_depth: float  # m
     temperature: float  # degrees Celsius
     light: float  # luminance of the light on a level surface; about 1 on a bright day
 
 
+class Shelter(Protocol):
+    """What knows whether something keeps the rain off a point."""
+
+    def covers(self, x: float, y: float, z: float) -> bool: ...
+
+
+class Ground(Protocol):
+    """What knows the water in mm on a place where it rains at `rate` mm/h at a time in s."""
+
+    def at(self, x: float, y: float, z: float, rate: float, time: float) -> float: ...
+
+
 class SampleField:
     """One `FrameData`, prepared to answer for any point."""
 
-    __slots__ = ("_areas", "_day_light", "_lights", "_wind")
+    __slots__ = ("_day_light", "_ground", "_lights", "_rain", "_shelter", "_time", "_wind")
 
-    def __init__(self, frame: FrameData) -> None:
-        self._areas = [
-            (*center, math.cos(heading), math.sin(heading), *radii, rate, min(edge, radii[1]), top)
-            for _, center, radii, heading, rate, edge, top in frame.areas.tolist()
-            if rate > 0.0
-        ]
+    def __init__(
+        self, frame: FrameData, shelter: Shelter | None = None, ground: Ground | None = None
+    ) -> None:
+        self._rain = RainField(frame.areas)
+        self._shelter, self._ground, self._time = shelter, ground, frame.time
         self._lights = [
             (*position, reach, luminance(color)) for position, color, reach in frame.lights.tolist()
         ]
@@ -58,24 +69,7 @@ class SampleField:
 
     def rain_rate(self, x: float, y: float, z: float) -> float:
         """mm/h at a point in the open: the areas' rates, each falling off over its soft edge."""
-        total = 0.0
-        hypot = math.hypot
-        for cx, cz, cos, sin, a, b, rate, edge, top in self._areas:
-            if y >= top:
-                continue
-            dx, dz = x - cx, z - cz
-            u = (dx * cos - dz * sin) / a
-            w = (dx * sin + dz * cos) / b
-            rho = hypot(u, w)
-            if rho >= 1.0:
-                continue
-            if edge > 0.0:
-                slope = hypot(u / a, w / b)
-                share = (1.0 - rho) * (rho / slope if slope > 0.0 else b) / edge
-                if share < 1.0:
-                    rate *= share * share * (3.0 - 2.0 * share)
-            total += rate
-        return total
+        return self._rain.rate(x, y, z)
 
     def light(self, x: float, y: float, z: float) -> float:
         """Luminance of day light and lamps; a lamp's falls as (1 - (d / reach)^2)^2."""
@@ -89,15 +83,19 @@ class SampleField:
 
     def at(self, x: float, y: float, z: float) -> Sample:
         """Everything at a point."""
-        rate = self.rain_rate(x, y, z)
+        rate = self._rain.rate(x, y, z)
         lost = _CLEAR + _RAIN * rate**_RAIN_POWER
+        sheltered = self._shelter is not None and self._shelter.covers(x, y, z)
+        wetness = 0.0
+        if self._ground is not None and not sheltered:
+            wetness = self._ground.at(x, y, z, rate, self._time)
         return Sample(
-            rate,
+            0.0 if sheltered else rate,
             0.0,
-            False,
+            sheltered,
             self._wind,
             CONTRAST / lost,
-            0.0,
+            wetness,
             0.0,
             TEMPERATURE,
             self.light(x, y, z),
@@ -105,13 +103,9 @@ class SampleField:
 
     def mode(self, x: float, z: float) -> str:
         """ "near" inside an area (f < 1), "far" where there is one elsewhere, else "none"."""
-        if not self._areas:
+        if not self._rain:
             return "none"
-        for cx, cz, cos, sin, a, b, *_ in self._areas:
-            dx, dz = x - cx, z - cz
-            if math.hypot((dx * cos - dz * sin) / a, (dx * sin + dz * cos) / b) < 1.0:
-                return "near"
-        return "far"
+        return "near" if self._rain.covers(x, z) else "far"
 
 
 def luminance(color: tuple[float, float, float]) -> float:

@@ -21,6 +21,7 @@ from weather_ecs.components import SNAPSHOT_COMPONENTS
 from weather_ecs.components._base import Component
 from weather_ecs.errors import InvalidValueError, SnapshotError
 from weather_ecs.systems.state import WeatherState
+from weather_ecs.systems.wet_ground import WetGround
 
 MAGIC = b"WECS"
 VERSION = 1
@@ -32,7 +33,7 @@ _NAMES = {
     name: tuple(sorted(field.name for field in fields(kind)))  # type: ignore[arg-type]
     for name, kind in SNAPSHOT_COMPONENTS.items()
 }
-_PARTS = {"clock", "entities", "next_uid", "rng", "seed"}
+_PARTS = {"clock", "entities", "next_uid", "rng", "seed", "wetness"}
 
 
 class Entity(NamedTuple):
@@ -50,6 +51,7 @@ class Loaded(NamedTuple):
     clock: Clock
     next_uid: int
     entities: list[Entity]
+    wet_ground: WetGround
 
 
 def encode(document: dict[str, Any]) -> bytes:
@@ -109,6 +111,7 @@ def capture(state: WeatherState) -> dict[str, Any]:
         "next_uid": state.uids.next,
         "rng": state.rng.bit_generator.state,
         "seed": state.seed,
+        "wetness": state.wet_ground.state(),
     }
 
 
@@ -143,6 +146,7 @@ def _load(document: dict[str, Any]) -> Loaded:
         clock=Clock.from_state(document["clock"]),
         next_uid=next_uid,
         entities=entities,
+        wet_ground=WetGround.from_state(document["wetness"]),
     )
 
 
@@ -180,6 +184,7 @@ def apply(state: WeatherState, loaded: Loaded) -> None:
     state.seed = loaded.seed
     state.rng = loaded.rng
     state.clock = loaded.clock
+    state.wet_ground = loaded.wet_ground
     state.uids.assign(assigned, loaded.next_uid)
 
 

@@ -17,12 +17,14 @@ from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, Wea
 from weather_ecs.frame import FrameData
 from weather_ecs.observer_keys import ObserverKeys
 from weather_ecs.physics.camera import Camera, camera_from
+from weather_ecs.physics.footprint import fall_slope, fall_speed_over
 from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, settings_for
 from weather_ecs.sampling import Sample, SampleField
 from weather_ecs.stats import Stats
 from weather_ecs.systems import ExtractSystem, WeatherProcessor, WeatherState, scheduled
 from weather_ecs.systems.queries import in_world, living
 from weather_ecs.systems.rain_view import RainView
+from weather_ecs.systems.shelter import ShelterIndex
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -76,6 +78,7 @@ class Weather:
         self._stats = Stats(quality=self._settings.name, backend=self._backend)
         self._observer: tuple[float, float, float] | None = None  # m, of the last draw
         self._keys = ObserverKeys()
+        self._shelter = ShelterIndex()
         self._field: SampleField | None = None
         self._field_frame: FrameData | None = None
         self._cost = FrameCost()
@@ -278,7 +281,10 @@ class Weather:
         self._check_open()
         frame = self._frame()
         if self._field is None or frame is not self._field_frame:
-            self._field, self._field_frame = SampleField(frame), frame
+            slope = fall_slope(frame.wind, fall_speed_over(frame.areas["rain_rate"]))
+            self._shelter.update(frame.occluders, slope, frame.time)
+            self._field = SampleField(frame, self._shelter, self._state.wet_ground)
+            self._field_frame = frame
         return self._field
 
     def _refresh_stats(self) -> None:

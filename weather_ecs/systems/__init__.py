@@ -8,6 +8,7 @@ from weather_ecs.systems.extract import ExtractSystem
 from weather_ecs.systems.processor import System, WeatherProcessor
 from weather_ecs.systems.rain_area import RainAreaSystem
 from weather_ecs.systems.state import WeatherState
+from weather_ecs.systems.wetness import WetnessSystem
 from weather_ecs.systems.wind import WindSystem
 
 
@@ -23,6 +24,7 @@ class Row(NamedTuple):
 SCHEDULE: tuple[Row, ...] = (
     Row(WindSystem, 100, "step", "first: whatever drifts needs the wind of this step"),
     Row(RainAreaSystem, 200, "step", "after the wind, which carries the areas"),
+    Row(WetnessSystem, 300, "step", "after the areas have moved: it rains where they are now"),
     Row(ExtractSystem, 900, "frame", "last: publishes what all the others have made"),
 )
 
@@ -41,6 +43,7 @@ __all__ = [
     "System",
     "WeatherProcessor",
     "WeatherState",
+    "WetnessSystem",
     "WindSystem",
     "scheduled",
 ]

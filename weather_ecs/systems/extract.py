@@ -31,7 +31,7 @@ from weather_ecs.frame import (
 )
 from weather_ecs.systems.occluders import OccluderList
 from weather_ecs.systems.queries import alive
-from weather_ecs.systems.rain_area import drift_velocity
+from weather_ecs.systems.rain_area import area_rows, drift_velocity
 from weather_ecs.systems.ripples import RippleList
 from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.wind import total_wind
@@ -96,25 +96,14 @@ class ExtractSystem:
             areas["center"] += self._velocity * clock.remainder
             areas.setflags(write=False)
         shapes = (occluders, self._splash, self._ripples.surfaces)
-        return FrameData(clock.time, clock.steps, areas, *self._parts, *shapes)
+        wet = state.wet_ground.data()
+        return FrameData(clock.time, clock.steps, areas, *self._parts, *shapes, wet)
 
     def _rebuild(self, state: WeatherState) -> None:
         wind = total_wind(state)
         found = alive(RainArea, state.uids)
-        rows = [
-            (
-                uid,
-                area.center,
-                area.radii,
-                area.heading,
-                area.rain_rate,
-                min(area.soft_edge, area.radii[1]),
-                area.ceiling,
-            )
-            for uid, area in found
-        ]
         velocities = [drift_velocity(area, wind) for _, area in found]
-        self._still = _frozen(rows, AREA_DTYPE) if rows else _NO_AREAS
+        self._still = area_rows(found) if found else _NO_AREAS
         self._velocity = np.array(velocities) if any(map(any, velocities)) else None
         lamps = [
             (lamp.position, lamp.color, lamp.reach) for _, lamp in alive(PointLight, state.uids)

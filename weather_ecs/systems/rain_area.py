@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from weather_ecs.clock import STEP
 from weather_ecs.components import RainArea
 from weather_ecs.components._base import FAR, set_unchecked
+from weather_ecs.frame import AREA_DTYPE
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.state import WeatherState
 
@@ -14,6 +18,25 @@ def drift_velocity(area: RainArea, wind: tuple[float, float, float]) -> tuple[fl
     x, z = area.velocity
     drift = area.drift
     return x + drift * wind[0], z + drift * wind[2]
+
+
+def area_rows(found: list[tuple[int, RainArea]]) -> NDArray:
+    """Areas by uid as read-only rows of AREA_DTYPE."""
+    rows = [
+        (
+            uid,
+            area.center,
+            area.radii,
+            area.heading,
+            area.rain_rate,
+            min(area.soft_edge, area.radii[1]),
+            area.ceiling,
+        )
+        for uid, area in found
+    ]
+    array = np.array(rows, AREA_DTYPE)
+    array.setflags(write=False)
+    return array
 
 
 class RainAreaSystem:

@@ -6,16 +6,18 @@ import numpy as np
 
 from weather_ecs.clock import Clock
 from weather_ecs.systems.uids import Uids
+from weather_ecs.systems.wet_ground import WetGround
 
 
 class WeatherState:
     """One weather's state beyond its components. All of it goes into a snapshot."""
 
-    __slots__ = ("clock", "rng", "seed", "uids", "wind")
+    __slots__ = ("clock", "rng", "seed", "uids", "wet_ground", "wind")
 
     def __init__(self, seed: int) -> None:
         self.seed = seed
         self.rng = np.random.Generator(np.random.PCG64(seed))  # the only source of chance
         self.clock = Clock()
         self.uids = Uids()
+        self.wet_ground = WetGround()
         self.wind = (0.0, 0.0, 0.0)  # m/s, world axes; summed by WindSystem

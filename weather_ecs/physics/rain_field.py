@@ -1,0 +1,72 @@
+"""The rain rate at one point, in plain numbers: a game asks for thousands of points a frame.
+
+The formula is `physics.ellipse.edge_factor` times the area's rate, summed over the areas.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from numpy.typing import NDArray
+
+
+class RainField:
+    """Rain areas (rows of `frame.AREA_DTYPE`), prepared to answer for any point."""
+
+    __slots__ = ("_areas", "_keys")
+
+    def __init__(self, areas: NDArray) -> None:
+        rows = plain_rows(areas[areas["rain_rate"] > 0.0])
+        self._keys = [row[0] for row in rows]
+        self._areas = [
+            (*center, math.cos(heading), math.sin(heading), *radii, rate, min(edge, radii[1]), top)
+            for _, center, radii, heading, rate, edge, top in rows
+        ]
+
+    def __bool__(self) -> bool:
+        return bool(self._areas)
+
+    def rate(self, x: float, y: float, z: float) -> float:
+        """mm/h at a point in the open: the areas' rates, each falling off over its soft edge."""
+        total = 0.0
+        for rate in self._rates(x, y, z):
+            total += rate
+        return total
+
+    def rates(self, x: float, y: float, z: float) -> dict[int, float]:
+        """The same by area: mm/h under the area's key."""
+        return dict(zip(self._keys, self._rates(x, y, z), strict=True))
+
+    def _rates(self, x: float, y: float, z: float) -> Iterator[float]:
+        hypot = math.hypot
+        for cx, cz, cos, sin, a, b, rate, edge, top in self._areas:
+            dx, dz = x - cx, z - cz
+            u = (dx * cos - dz * sin) / a
+            w = (dx * sin + dz * cos) / b
+            rho = hypot(u, w)
+            if rho >= 1.0 or y >= top:
+                yield 0.0
+                continue
+            if edge > 0.0:
+                slope = hypot(u / a, w / b)
+                share = (1.0 - rho) * (rho / slope if slope > 0.0 else b) / edge
+                if share < 1.0:
+                    rate *= share * share * (3.0 - 2.0 * share)
+            yield rate
+
+    def covers(self, x: float, z: float) -> bool:
+        """Whether a place lies inside any of the areas (f < 1)."""
+        for cx, cz, cos, sin, a, b, *_ in self._areas:
+            dx, dz = x - cx, z - cz
+            if math.hypot((dx * cos - dz * sin) / a, (dx * sin + dz * cos) / b) < 1.0:
+                return True
+        return False
+
+
+def plain_rows(rows: NDArray) -> list[tuple[Any, ...]]:
+    """Rows of a structured array as tuples of plain numbers, and of tuples of them."""
+    columns = [rows[name].tolist() for name in rows.dtype.names or ()]
+    nested = [[tuple(v) for v in c] if c and isinstance(c[0], list) else c for c in columns]
+    return list(zip(*nested, strict=True))

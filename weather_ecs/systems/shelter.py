@@ -1,0 +1,247 @@
+"""`ShelterIndex`: whether something stands over a point, along the rain's fall; no OpenGL.
+
+Answers for the collision heightmap where there is none: on a server, and for game code, which must
+not wait for the GPU. Occluders are found by their boxes on the ground, carried along the fall to
+the height 0, in grids of several cell sizes; then their triangles are asked
+(`physics.heightfield`), which are got ready when somebody first asks, and again when their mesh or
+the wind has turned.
+Callback occluders draw on the GPU alone and are not seen here.
+"""
+
+from __future__ import annotations
+
+import math
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.frame import OccluderData
+from weather_ecs.physics.heightfield import Facets, Piece, pieces
+
+MARGIN = 0.25  # m above a point from which on something counts as cover
+_CHEAP = 1e-3  # s; an update that takes longer is made at most every _SOON seconds
+_SOON = 0.1  # s
+_BUDGET = 4e-3  # s of an update's time for facets that an older version can stand in for
+_KEPT = 4096  # facets that are remembered
+_FINEST = 4.0  # m, cell of the finest grid; every coarser one is twice as wide
+_OFFSET = 1 << 28  # makes cell numbers positive
+
+
+class ShelterIndex:
+    """What keeps the rain off, ready for thousands of questions a frame."""
+
+    def __init__(self) -> None:
+        self._meshes = _Meshes()
+        self._facets = _FacetStore()
+        self._still = _Layer(self._meshes, self._facets)
+        self._moving = _Layer(self._meshes, self._facets)
+        self._seen: tuple[OccluderData, ...] = ()
+        self._slope = (0.0, 0.0)
+        self._cost = 0.0  # s, of the last update
+        self._made = (-math.inf, -math.inf)  # weather's clock and the machine's, s
+
+    def update(
+        self, occluders: tuple[OccluderData, ...], slope: tuple[float, float], time: float
+    ) -> None:
+        """Take over what the frame knows; cheap where nothing has changed."""
+        if occluders is self._seen and slope == self._slope:
+            return
+        now = perf_counter()
+        waited = max(abs(time - self._made[0]), now - self._made[1])
+        if self._cost > _CHEAP and waited < _SOON:
+            return
+        self._facets.spent = 0.0
+        solid = [o for o in occluders if o.vertices is not None]
+        changed = self._still.update([o for o in solid if not o.dynamic], slope)
+        changed |= self._moving.update([o for o in solid if o.dynamic], slope)
+        if changed:
+            self._meshes.keep_used()
+        self._seen, self._slope = occluders, slope
+        self._made = (time, perf_counter())
+        self._cost = self._made[1] - now
+
+    def covers(self, x: float, y: float, z: float) -> bool:
+        """Whether something at least MARGIN above the point keeps the rain off it."""
+        level = y + MARGIN
+        u, w = x + y * self._slope[0], z + y * self._slope[1]
+        return self._still.covers(u, w, level) or self._moving.covers(u, w, level)
+
+
+class _Meshes:
+    """The pieces of every mesh in use, by the identity of its arrays and by its scale."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[int, int, int], tuple[NDArray, NDArray, list[Piece]]] = {}
+        self._used: set[tuple[int, int, int]] = set()
+
+    def pieces(self, vertices: NDArray, indices: NDArray, exponent: int) -> list[Piece]:
+        key = (id(vertices), id(indices), exponent)
+        known = self._known.get(key)
+        if known is None:
+            # The arrays are kept too, so that no identity is used twice.
+            known = (vertices, indices, pieces(vertices, indices, 2.0**exponent))
+            self._known[key] = known
+        self._used.add(key)
+        return known[2]
+
+    def keep_used(self) -> None:
+        """Forget what nobody has asked for for a while."""
+        if len(self._known) > 2 * len(self._used) + 64:
+            self._known = {k: v for k, v in self._known.items() if k in self._used}
+        self._used.clear()
+
+
+class _FacetStore:
+    """Facets by piece, turn and fall: what is only carried along, or shares a mesh, shares them."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[Piece, bytes, tuple[float, float]], Facets] = {}
+        self.spent = 0.0  # s, since the last update
+
+    def get(
+        self,
+        piece: Piece,
+        transform: NDArray,
+        slope: tuple[float, float],
+        before: Facets | None,
+    ) -> tuple[Facets, bool]:
+        """(facets, whether they are the ones asked for and not the ones before)."""
+        turn = transform[:3, :3]
+        key = (piece, turn.tobytes(), slope)
+        known = self._known.get(key)
+        if known is not None:
+            return known, True
+        if before is not None and self.spent > _BUDGET:
+            return before, False
+        started = perf_counter()
+        known = self._known[key] = Facets(piece, turn, slope)
+        if len(self._known) > _KEPT:
+            self._known.pop(next(iter(self._known)))
+        self.spent += perf_counter() - started
+        return known, True
+
+
+class _Layer:
+    """Occluders in grids by their boxes; (u, w) are places carried along the fall to height 0."""
+
+    def __init__(self, meshes: _Meshes, facets: _FacetStore) -> None:
+        self._meshes = meshes
+        self._store = facets
+        self._occluders: list[OccluderData] = []
+        self._slope = (0.0, 0.0)
+        self._shape: list[tuple[int, int, int]] = []
+        self._pieces: list[Piece] = []
+        self._owner: list[int] = []
+        self._middle = self._half = np.zeros((0, 3))
+        self._facets: list[Facets | None] = []
+        self._ready: list[NDArray | None] = []  # the transforms that the facets are for
+        self._shift: list[list[float]] = []  # of every occluder: u, height, w
+        self._boxes: list[list[float]] = []  # of every piece: u, u, w, w, top
+        self._levels: list[tuple[int, float]] = []  # exponent, 1 / cell
+        self._cells: dict[int, int] = {}
+        self._starts: list[int] = []
+        self._members: list[int] = []
+
+    def update(self, occluders: list[OccluderData], slope: tuple[float, float]) -> bool:
+        """Take over these occluders; returns whether meshes were looked up."""
+        if occluders == self._occluders and slope == self._slope:
+            return False
+        if slope != self._slope:
+            self._ready = [None] * len(self._pieces)
+        self._occluders, self._slope = occluders, slope
+        count = len(occluders)
+        transforms = np.array([o.transform for o in occluders]).reshape(count, 4, 4)
+        stretch = np.linalg.norm(transforms[:, :3, :3], axis=1).max(axis=1)
+        exponents = np.round(np.log2(stretch)).astype(int).tolist()
+        shape = [
+            (id(o.vertices), id(o.indices), e) for o, e in zip(occluders, exponents, strict=True)
+        ]
+        fresh = shape != self._shape
+        if fresh:
+            self._restructure(exponents)
+            self._shape = shape
+        self._place(transforms)
+        return fresh
+
+    def _restructure(self, exponents: list[int]) -> None:
+        self._pieces, self._owner = [], []
+        for number, (o, exponent) in enumerate(zip(self._occluders, exponents, strict=True)):
+            assert o.vertices is not None and o.indices is not None
+            found = self._meshes.pieces(o.vertices, o.indices, exponent)
+            self._pieces += found
+            self._owner += [number] * len(found)
+        self._middle = np.array([p.middle for p in self._pieces]).reshape(-1, 3)
+        self._half = np.array([p.half for p in self._pieces]).reshape(-1, 3)
+        self._facets = [None] * len(self._pieces)
+        self._ready = [None] * len(self._pieces)
+
+    def _place(self, transforms: NDArray) -> None:
+        slope = np.array(self._slope)
+        turns, shifts = transforms[:, :3, :3], transforms[:, :3, 3]
+        carried = shifts.copy()
+        carried[:, [0, 2]] += shifts[:, 1:2] * slope
+        self._shift = carried.tolist()
+        owner = np.array(self._owner, np.int64)
+        middle = np.einsum("nij,nj->ni", turns[owner], self._middle) + shifts[owner]
+        half = np.einsum("nij,nj->ni", np.abs(turns[owner]), self._half)
+        places = middle[:, [0, 2]] + middle[:, 1:2] * slope
+        wide = half[:, [0, 2]] + half[:, 1:2] * np.abs(slope)
+        low, high = places - wide, places + wide
+        top = middle[:, 1] + half[:, 1]
+        self._boxes = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1], top], axis=1).tolist()
+        self._file(low, high)
+
+    def _file(self, low: NDArray, high: NDArray) -> None:
+        """Enter the boxes into grids, each where it lies in four cells at most."""
+        size = np.maximum((high - low).max(axis=1, initial=0.0), _FINEST)
+        level = np.ceil(np.log2(size / _FINEST)).astype(np.int64)
+        over_cell = (1.0 / _FINEST) * 0.5**level
+        first = np.floor(low * over_cell[:, None]).astype(np.int64) + _OFFSET
+        last = np.floor(high * over_cell[:, None]).astype(np.int64) + _OFFSET
+        keys, members = [], []
+        for i, also_i in ((first[:, 0], None), (last[:, 0], first[:, 0] < last[:, 0])):
+            for j, also_j in ((first[:, 1], None), (last[:, 1], first[:, 1] < last[:, 1])):
+                entered = np.ones(len(low), bool)
+                for also in (also_i, also_j):
+                    if also is not None:
+                        entered &= also
+                keys.append(((level << 58) | (i << 29) | j)[entered])
+                members.append(np.flatnonzero(entered))
+        key, member = np.concatenate(keys), np.concatenate(members)
+        order = np.argsort(key, kind="stable")
+        key = key[order]
+        starts = np.flatnonzero(np.diff(key, prepend=-1))
+        self._members = member[order].tolist()
+        self._starts = [*starts.tolist(), len(member)]
+        self._cells = dict(zip(key[starts].tolist(), range(len(starts)), strict=True))
+        used = np.flatnonzero(np.bincount(level)).tolist()
+        self._levels = [(e, (1.0 / _FINEST) * 0.5**e) for e in used]
+
+    def covers(self, u: float, w: float, level: float) -> bool:
+        """Whether a surface stands above `level` at a place."""
+        floor, boxes = math.floor, self._boxes
+        for exponent, over_cell in self._levels:
+            i, j = floor(u * over_cell) + _OFFSET, floor(w * over_cell) + _OFFSET
+            cell = self._cells.get((exponent << 58) | (i << 29) | j)
+            if cell is None:
+                continue
+            for k in self._members[self._starts[cell] : self._starts[cell + 1]]:
+                u0, u1, w0, w1, top = boxes[k]
+                if top <= level or u < u0 or u > u1 or w < w0 or w > w1:
+                    continue
+                owner = self._owner[k]
+                transform = self._occluders[owner].transform
+                facets, ready = self._facets[k], self._ready[k]
+                if facets is None or ready is not transform:
+                    facets = self._prepare(k, transform, facets)
+                su, sh, sw = self._shift[owner]
+                if facets.cover(u - su, w - sw, level - sh):
+                    return True
+        return False
+
+    def _prepare(self, k: int, transform: NDArray, before: Facets | None) -> Facets:
+        facets, exact = self._store.get(self._pieces[k], transform, self._slope, before)
+        self._facets[k] = facets
+        self._ready[k] = transform if exact else None
+        return facets
