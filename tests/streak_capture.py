@@ -48,7 +48,7 @@ def view_of(view: ViewData, height: int) -> StreakView:
         0.5 * height * float(view.projection[1, 1]),
         sky.sun_direction,
         sky.sun_color,
-        tuple(drop_light(sky).tolist()),
+        tuple((view.frame.look.brightness * drop_light(sky)).tolist()),
         np.column_stack([rows["position"], rows["reach"], rows["color"]]),
     )
 

@@ -61,6 +61,7 @@ class DropLook:
     exposure: float = 1.0 / 24.0  # s, length of the path a streak shows
     width: float = 4.0  # factor on the drop's diameter, look only
     density: float = 6.0  # factor on how much the drops cover: 1 is what nature shows
+    brightness: float = 1.6  # factor on the light of the sky that drops show
     opacity: float = 0.6  # greatest opacity of one streak
     veil: float = 2.5  # factor on the veil's extinction, look only
     fastest: float = 8.0  # m/s, of the observer's own speed that slants the streaks at most
@@ -70,14 +71,14 @@ class DropLook:
 class SplashLook:
     """Looks of the splashes; see `components.SplashEmitter`."""
 
-    size: float = 16.0  # factor on the radius to which the drop's water spreads
+    size: float = 20.0  # factor on the radius to which the drop's water spreads
     largest: float = 0.12  # m, radius that no crown exceeds
-    duration: float = 0.24  # s, from the hit until the crown has sunk
-    opacity: float = 0.7  # greatest of one splash
+    duration: float = 0.3  # s, from the hit until the crown has sunk
+    opacity: float = 0.85  # greatest of one splash
     share: float = 0.005  # of the real drops whose splash is shown full-grown
     droplets: float = 4.0  # mean number that one splash throws, 6 at most
-    droplet_size: float = 5.0  # mm, as they are drawn
-    droplet_speed: float = 0.2  # of the drop's own speed at the hit
+    droplet_size: float = 6.0  # mm, as they are drawn
+    droplet_speed: float = 0.28  # of the drop's own speed at the hit
     spread: float = 0.7  # rad, greatest angle between a droplet's way and the normal
     drift: float = 0.3  # share of the wind that there is so close to the surface
     detail: float = 9.0  # m, distance up to which droplets and films are drawn

@@ -22,6 +22,7 @@ class RainContainer(Component):
     exposure: float = 1.0 / 24.0  # s, 1e-4 to 1, of fall that a streak shows
     width: float = 4.0  # 0.05 to 20, factor on the drop's diameter
     density: float = 6.0  # 0 to 100, factor on how much the drops cover: 1 is what nature shows
+    brightness: float = 1.6  # 0 to 10, factor on the light of the sky that drops show
     opacity: float = 0.6  # 0 to 1, greatest opacity of one streak
     veil: float = 2.5  # 0 to 10, factor on the extinction of the rain beyond the container
     fastest: float = 8.0  # m/s, 0 to 1000, of the observer's own speed that slants the streaks
@@ -34,6 +35,7 @@ class RainContainer(Component):
         "exposure": number(1.0e-4, 1.0),
         "width": number(0.05, 20.0),
         "density": number(0.0, 100.0),
+        "brightness": number(0.0, 10.0),
         "opacity": number(0.0, 1.0),
         "veil": number(0.0, 10.0),
         "fastest": number(0.0, 1000.0),

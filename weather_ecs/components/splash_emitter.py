@@ -17,14 +17,14 @@ class SplashEmitter(Component):
     `weather_ecs.frame.SplashLook`.
     """
 
-    size: float = 16.0  # 0 to 200, factor on the radius to which the drop's water spreads
+    size: float = 20.0  # 0 to 200, factor on the radius to which the drop's water spreads
     largest: float = 0.12  # m, 0.001 to 10, radius that no crown exceeds
-    duration: float = 0.24  # s, 0.02 to 5, from the hit until the crown has sunk
-    opacity: float = 0.7  # 0 to 1, greatest of one splash
+    duration: float = 0.3  # s, 0.02 to 5, from the hit until the crown has sunk
+    opacity: float = 0.85  # 0 to 1, greatest of one splash
     share: float = 0.005  # 0 to 1, of the real drops whose splash is shown full-grown
     droplets: float = 4.0  # 0 to 6, mean number that one splash throws
-    droplet_size: float = 5.0  # mm, 0.1 to 100, as they are drawn
-    droplet_speed: float = 0.2  # 0 to 1, of the drop's own speed at the hit
+    droplet_size: float = 6.0  # mm, 0.1 to 100, as they are drawn
+    droplet_speed: float = 0.28  # 0 to 1, of the drop's own speed at the hit
     spread: float = 0.7  # rad, 0 to pi/2, greatest angle between a droplet's way and the normal
     drift: float = 0.3  # 0 to 1, share of the wind that there is so close to the surface
     detail: float = 9.0  # m, 0 to 100, distance up to which droplets and films are drawn

@@ -170,8 +170,10 @@ class RainPass:
         data["container_axis"], data["container_shape"] = container.axis, container.shape
         data["area_axis"], data["area_shape"] = container.area_axis, container.area_shape
         data["drop_law"] = container.law
+        # A far drop is drawn larger, not fainter: of a shaft it is the grain.
+        density = look.density * min(container.size_scale**2, 16.0)
         fade = 1.0 / max(_COUNT_FADE * container.count, 1.0)
-        data["drop_load"] = (container.load, container.count, fade, look.density)
+        data["drop_load"] = (container.load, container.count, fade, density)
         data["drop_look"] = (
             look.size_maximum, container.size_scale, look.width, look.opacity,
         )  # fmt: skip

@@ -49,7 +49,7 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     data["view_time"] = (view.frame.time, view.dt, 0.0, 0.0)
     data["sun_direction"] = (*sky.sun_direction, 0.0)
     data["sun_color"] = (*sky.sun_color, 0.0)
-    data["drop_color"][:3] = drop_light(sky)
+    data["drop_color"][:3] = look.brightness * drop_light(sky)
     data["veil_color"][:3] = encode(veil_light(sky))
     _fill_lights(block, view)
 

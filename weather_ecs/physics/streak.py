@@ -128,7 +128,7 @@ def streaks(p: NDArray, v: NDArray, birth: NDArray, view: StreakView, law: Strea
     solid = np.minimum(0.25 * math.pi * diameter**2 * weight * law.density / area, law.opacity)
 
     pixels = width * view.pixels / np.where(drawn, head[:, 3], 1.0)
-    near = np.clip((head[:, 3] - 0.15) / 0.55, 0.0, 1.0)
+    near = np.clip((head[:, 3] - 0.3) / 1.3, 0.0, 1.0)
     opacity = solid * np.minimum(pixels, 1.0) * near * near * (3.0 - 2.0 * near)
     drawn &= opacity >= FAINTEST
     color = np.column_stack([np.maximum(light_on(p, view), 0.0) ** (1.0 / 2.2), opacity])

@@ -45,7 +45,7 @@ void main()
     float opacity = min(covered / (width * (length(path) + width)), drop_look.w);
 
     float pixels = width * camera_position.w / head.w;
-    opacity *= min(pixels, 1.0) * smoothstep(0.15, 0.7, head.w);
+    opacity *= min(pixels, 1.0) * smoothstep(0.3, 1.6, head.w);
     if (opacity < 0.002) return;
     vs_width = max(pixels, 1.0);
     vs_head = head;
