@@ -18,7 +18,7 @@ SOFT_EDGE = 12.0  # m
 CEILING = 400.0  # m
 
 SHOWER_RADII = (85.0, 48.0)  # m, of the small one that passes in the distance
-SHOWER_EDGE = 24.0  # m
+SHOWER_EDGE = 46.0  # m
 SHOWER_SHARE = 0.6  # of the rain rate of the large one
 SHOWER_DISTANCE = 420.0  # m that its course keeps from the place, to the left of the wind
 SHOWER_COURSE = 600.0  # m before and behind there, then it begins anew
