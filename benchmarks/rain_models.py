@@ -161,4 +161,6 @@ def save_pictures(folder: Path) -> None:
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: python -m benchmarks.rain_models FOLDER")
     save_pictures(Path(sys.argv[1]))
