@@ -1,0 +1,84 @@
+// Close by: the film that spreads flat over the surface, and droplets on parabolas that end where
+// they hit again.
+layout(points) in;
+layout(triangle_strip, max_vertices = 28) out;
+#include "splash.glsl"
+#include "splash_quad.glsl"
+#include "shelter.glsl"
+
+in vec2 vs_throw[];
+
+// How high p lies over what the map knows of, m.
+float height_over(vec3 p)
+{
+    return -below_surface(shelter_place(p));
+}
+
+void film(vec4 form, vec3 first, vec3 second)
+{
+    bool wet = form.z > 0.5;
+    if (form.y >= (wet ? 0.95 : 0.7)) return;  // the texture is empty from there on
+    float turn = 40.0 * form.w;
+    float reach = form.x * growth(form.y) * (wet ? 2.6 : 1.7);
+    vec3 a = (first * cos(turn) + second * sin(turn)) * reach;
+    vec3 b = (second * cos(turn) - first * sin(turn)) * reach;
+    vec4 color = vs_color[0];
+    quad(vs_at[0], a, b, layer_at(wet ? RING : FILM, form.y), vec4(color.rgb, color.a * 0.4));
+}
+
+// A droplet as a streak of its way during the exposure.
+void droplet(vec3 p, vec3 velocity, float size, vec4 color)
+{
+    vec4 b = lifted(p);
+    vec4 a = lifted(p - velocity * camera_velocity.w * 0.5);
+    if (min(a.w, b.w) < 0.2) return;
+    vec2 along = (b.xy / b.w - a.xy / a.w) * view_size.xy;
+    float span = length(along);
+    along = span > 1e-3 ? along / span : vec2(0.0, 1.0);
+    float pixels = size * camera_position.w / b.w;
+    color.a *= min(pixels / 1.5, 1.0);
+    float wide = max(pixels, 1.5);
+    vec2 across = vec2(-along.y, along.x) * wide / view_size.xy;
+    vec2 longer = along * wide / view_size.xy;
+    corner(vec4(a.xy - (longer + across) * a.w, a.zw), vec2(0.0, 0.0), BEAD, color);
+    corner(vec4(a.xy - (longer - across) * a.w, a.zw), vec2(1.0, 0.0), BEAD, color);
+    corner(vec4(b.xy + (longer - across) * b.w, b.zw), vec2(0.0, 1.0), BEAD, color);
+    corner(vec4(b.xy + (longer + across) * b.w, b.zw), vec2(1.0, 1.0), BEAD, color);
+    EndPrimitive();
+}
+
+void main()
+{
+    vec4 form = vs_form[0];
+    if (form.x <= 0.0) return;
+    vec3 n = vs_normal[0];
+    vec3 first = normalize(vec3(n.y, -n.x, 0.0));
+    vec3 second = cross(n, first);
+    film(form, first, second);
+
+    float age = vs_throw[0].y;
+    vec3 pull = splash_pull.xyz;
+    uint id = floatBitsToUint(form.w);
+    float number = floor(splash_spray.y + hash_unit(id ^ 0x27D4EB2Fu));
+    float fall = dot(n, pull);
+    vec4 color = vs_color[0];
+    color.a *= 1.0 - smoothstep(0.75 * LONGEST, LONGEST, age);
+    for (int k = 0; k < MOST; ++k) {
+        if (float(k) >= number || age >= LONGEST) break;
+        uint h = hash_word(id + 0x9E3779B9u * uint(k + 1));
+        float turn = (float(k) + 0.8 * hash_unit(h)) * (6.28318531 / number) + 40.0 * form.w;
+        float tilt = splash_spray.w * (0.35 + 0.65 * hash_unit(h ^ 0x85EBCA6Bu));
+        float pace = vs_throw[0].x * (0.5 + 0.5 * hash_unit(h ^ 0xC2B2AE35u));
+        vec3 across = first * cos(turn) + second * sin(turn);
+        vec3 v = (n * cos(tilt) + across * sin(tilt)) * pace;
+        float back = fall < 0.0 ? min(-2.0 * dot(n, v) / min(fall, -1e-6), LONGEST) : LONGEST;
+        if (age >= back) {
+            // Over the edge of what was hit it falls on; else it has landed.
+            vec3 landed = vs_at[0] + v * back + 0.5 * pull * (back * back);
+            if (height_over(landed) < 0.08) continue;
+        }
+        vec3 p = vs_at[0] + v * age + 0.5 * pull * (age * age);
+        if (height_over(p) < -0.03) continue;
+        droplet(p, v + pull * age, splash_grain.x, color);
+    }
+}
