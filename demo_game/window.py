@@ -44,6 +44,7 @@ class GameWindow(pyglet.window.Window):
         self.screen_shown = Screen.START
         self.ready = False
         self._closed_early = False
+        self._prepared = (0, 0, 0)
         super().__init__(
             *size, caption=TITLE, resizable=True, vsync=True, config=config, visible=False
         )
@@ -86,8 +87,10 @@ class GameWindow(pyglet.window.Window):
 
     def _draw_preparing(self, seconds: float) -> bool:
         self.dispatch_events()
-        if self._closed_early or self.width < 1 or self.height < 1:
+        state = (self.width, self.height, int(seconds * 2))
+        if self._closed_early or self.width < 1 or self.height < 1 or state == self._prepared:
             return not self._closed_early
+        self._prepared = state
         self.switch_to()
         prepare_for_pyglet(self)
         view = PreparingView(Frame(self.width, self.height))
