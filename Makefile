@@ -22,7 +22,7 @@ demo: setup
 	$(PY) -m demo_game $(ARGS)
 
 test: setup-test
-	$(PY) -m pytest $(ARGS)
+	$(PY) -m pytest -n 2 --dist loadfile $(ARGS)
 
 bench: setup
 	@mkdir -p out/bench
