@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from weather_ecs.gpu.streak_list import StreakList
 
 # Position and velocity, float32.
 STATE_BYTES = 24
@@ -14,7 +18,7 @@ BIRTH_BYTES = 16
 
 
 class DropSet:
-    """Buffers and vertex arrays of `capacity` drops; 64 bytes a drop with feedback, 40 without.
+    """Buffers and vertex arrays of `capacity` drops; 64 bytes a drop with feedback, 44 without.
 
     `programs` are those that read the drops as vertices, by name; each gets its vertex arrays.
     With `two_sided`, the state is double, for transform feedback from one side to the other.
@@ -38,13 +42,19 @@ class DropSet:
         self.placed: tuple[tuple[float, ...], tuple[float, ...]] | None = None
         self.steps = 0
         self.alive = 0  # drops that the last step moved
+        self.streaks: StreakList | None = None  # those in view, where they are listed
+        self._ctx = ctx
         self._arrays = {
-            name: [self._array(ctx, program, state) for state in self.states]
+            name: [self._array(program, state, None) for state in self.states]
             for name, program in programs.items()
         }
 
+    def array_for(self, program: moderngl.Program, ids: moderngl.Buffer) -> moderngl.VertexArray:
+        """A vertex array over the drops that `ids` lists; the caller's to release."""
+        return self._array(program, self.states[0], ids)
+
     def _array(
-        self, ctx: moderngl.Context, program: moderngl.Program, state: moderngl.Buffer
+        self, program: moderngl.Program, state: moderngl.Buffer, ids: moderngl.Buffer | None
     ) -> moderngl.VertexArray:
         # A shader may leave an attribute unused; the compiler then drops it.
         names = [name if name in program else "" for name in ("in_position", "in_velocity")]
@@ -52,7 +62,7 @@ class DropSet:
         content = [(state, layout, *[name for name in names if name])]
         if "in_birth" in program:
             content.append((self.births, "4f", "in_birth"))
-        return ctx.vertex_array(program, content)
+        return self._ctx.vertex_array(program, content, index_buffer=ids)
 
     def array(self, name: str) -> moderngl.VertexArray:
         """The vertex array of a program over the drops as they are now."""
@@ -60,10 +70,14 @@ class DropSet:
 
     @property
     def bytes_per_drop(self) -> int:
-        return BIRTH_BYTES + STATE_BYTES * len(self.states)
+        listed = 4 if self.streaks is not None else 0
+        return BIRTH_BYTES + STATE_BYTES * len(self.states) + listed
 
     def release(self) -> None:
         """Give every buffer back, in reverse order; twice does no harm."""
+        if self.streaks is not None:
+            self.streaks.release()
+            self.streaks = None
         for arrays in reversed(self._arrays.values()):
             for array in arrays:
                 array.release()

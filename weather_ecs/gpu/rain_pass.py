@@ -12,6 +12,7 @@ from weather_ecs.gpu.drop_set import DropSet
 from weather_ecs.gpu.impact_list import ImpactList
 from weather_ecs.gpu.rain_blocks import RAIN_DRAW, RAIN_STEP
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.gpu.streak_list import CULL, StreakList
 
 GROUP = 128  # drops in a work group; also in rain_step.comp
 SHELTER_UNIT = 1
@@ -55,15 +56,20 @@ class RainPass:
         # Without and with a collision heightmap.
         self._steps = [shaders.program(key), shaders.program(replace(key, defines=("SHELTER",)))]
         self._steps[1]["shelter_map"] = SHELTER_UNIT
-        self._programs = {"streak": shaders.program(DRAW)}
+        self._draw_program = shaders.program(DRAW)
+        self._cull = shaders.program(CULL) if self._lists else None
+        self._programs = {} if self._lists else {"streak": self._draw_program}
         if backend == "feedback":
             self._programs |= {"step": self._steps[0], "sheltered step": self._steps[1]}
         self._step_block = BlockBuffer(ctx, RAIN_STEP)
         self._draw_block = BlockBuffer(ctx, RAIN_DRAW)
 
     def add_reader(self, name: str, program: moderngl.Program) -> None:
-        """A program that reads drops as vertices; before the first update."""
+        """A program that reads drops as vertices."""
         self._programs[name] = program
+        for seen in self._observed.values():
+            for drops in seen.sets.values():
+                drops.add_reader(self._ctx, name, program)
 
     @property
     def has_lists(self) -> bool:
@@ -161,7 +167,12 @@ class RainPass:
             drops = seen.sets[container.key]
             self.fill_container(container, view)
             count = min(drops_used(container, drops), drops.alive)
-            drops.array("streak").render(moderngl.POINTS, vertices=count)
+            if self._cull is None:
+                drops.array("streak").render(moderngl.POINTS, vertices=count)
+                continue
+            if drops.streaks is None:
+                drops.streaks = StreakList(self._ctx, drops, self._draw_program)
+            drops.streaks.draw(self._cull, count)
 
     def fill_container(self, container: ContainerData, view: ViewData) -> None:
         """Upload the block RainDraw of one container."""

@@ -61,6 +61,7 @@ class _Observed:
     position: tuple[float, float, float]
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     placed: dict[int, _Placed] = field(default_factory=dict)
+    fresh: bool = True  # not viewed yet
 
 
 class RainView:
@@ -109,10 +110,9 @@ class RainView:
     ) -> list[ContainerData]:
         look = frame.look
         size = ContainerSettings(look.reach, look.height, look.margin)
+        first, seen.fresh = seen.fresh, False
         placed: dict[int, _Placed] = {}
-        for row in frame.areas:
-            if row["rain_rate"] <= 0.0:
-                continue
+        for row in frame.areas[_in_view(frame.areas, camera)]:
             area_key = int(row["key"])
             before = seen.placed.get(area_key)
             area = Area(
@@ -131,9 +131,11 @@ class RainView:
                 dt,
             )
             wanted = container.share if container.visible else 0.0
-            if before is not None:
+            if not first:
+                # What comes into the picture gets its drops little by little, what leaves it too.
+                had = before.importance if before is not None else 0.0
                 change = _BALANCE_RATE * dt
-                wanted = min(max(wanted, before.importance - change), before.importance + change)
+                wanted = min(max(wanted, had - change), had + change)
             placed[area_key] = _Placed(container, wanted)
         seen.placed = placed
         shown = sorted(
@@ -141,7 +143,7 @@ class RainView:
             key=lambda k: (-placed[k].importance, k),
         )[: settings.containers]
         total = max(sum(placed[k].importance for k in shown), 1.0)
-        rows = {int(row["key"]): row for row in frame.areas} if shown else {}
+        rows = {int(row["key"]): row for row in frame.areas if int(row["key"]) in placed}
         data: list[ContainerData] = []
         for k in shown:
             count = max(settings.drops * settings.budget * placed[k].importance / total, 1.0)
@@ -194,9 +196,10 @@ class RainView:
         veils = []
         for row in frame.areas:
             rate, key = float(row["rain_rate"]), int(row["key"])
-            if rate <= 0.0 or not seen.placed[key].container.visible:
+            placed = seen.placed.get(key)
+            if placed is None or not placed.container.visible:
                 continue
-            container = seen.placed[key].container
+            container = placed.container
             a, b = row["radii"].tolist()
             soft = min(float(row["soft_edge"]), b)
             h, ceiling = float(row["heading"]), float(row["ceiling"])
@@ -246,3 +249,18 @@ def shown_distance(look: DropLook, rain_rate: float, count: int) -> float:
     # Near its rim the container thins out, whatever a streak could show.
     share *= np.minimum((1.0 - d) * 4.0, 1.0)
     return float(2.0 * share.mean() * look.reach)
+
+
+def _in_view(areas: np.ndarray, camera: Camera) -> np.ndarray:
+    """Which areas rain and have a bounding circle that reaches into the camera's azimuths, (n,).
+
+    Areas out of view are many and must cost nothing; `place` is exact for the others.
+    """
+    away = areas["center"] - (camera.position[0], camera.position[2])
+    far = np.hypot(away[:, 0], away[:, 1])
+    reach = areas["radii"][:, 0]
+    half = np.arcsin(np.minimum(reach / np.maximum(far, 1e-9), 1.0))
+    off = np.arctan2(-away[:, 1], away[:, 0]) - camera.heading
+    off = np.abs((off + math.pi) % (2.0 * math.pi) - math.pi)
+    seen = (far <= reach) | (off - half <= camera.half_width + math.radians(3.0))
+    return np.asarray((areas["rain_rate"] > 0.0) & seen)

@@ -1,0 +1,48 @@
+"""The drops of a set that are in view, listed on the GPU, so that only these are drawn."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import moderngl
+
+from weather_ecs.gpu.drop_set import DropSet
+from weather_ecs.gpu.shader_loader import ProgramKey
+
+CULL = ProgramKey(compute="streak_cull.comp")
+CHUNK = 128 * 32  # drops of one work group and one draw command; also in streak_cull.comp
+COMMAND_BYTES = 20
+
+
+class StreakList:
+    """Four bytes a drop, and a draw command a chunk; the order is that of the drops."""
+
+    def __init__(self, ctx: moderngl.Context, drops: DropSet, draw: moderngl.Program) -> None:
+        self._ctx = ctx
+        self.drops = drops
+        self._ids = ctx.buffer(reserve=4 * drops.capacity)
+        chunks = -(-drops.capacity // CHUNK)
+        self._commands = ctx.buffer(reserve=COMMAND_BYTES * chunks)
+        self._array = drops.array_for(draw, self._ids)
+
+    @property
+    def size(self) -> int:
+        """Bytes on the GPU."""
+        return int(self._ids.size + self._commands.size)
+
+    def draw(self, cull: Any, count: int) -> None:
+        """List those of the first `count` drops that are in view, by the program CULL, and draw."""
+        chunks = -(-count // CHUNK)
+        cull["streak_count"] = count
+        self.drops.states[0].bind_to_storage_buffer(1)
+        self._ids.bind_to_storage_buffer(2)
+        self._commands.bind_to_storage_buffer(3)
+        cull.run(chunks)
+        self._ctx.memory_barrier(moderngl.ELEMENT_ARRAY_BARRIER_BIT | moderngl.COMMAND_BARRIER_BIT)
+        self._array.render_indirect(self._commands, moderngl.POINTS, count=chunks)
+
+    def release(self) -> None:
+        """Give everything back; twice does no harm."""
+        self._array.release()
+        self._commands.release()
+        self._ids.release()
