@@ -96,7 +96,8 @@ def build_parser() -> argparse.ArgumentParser:
         type=_one_of(QUALITIES),
         metavar="LEVEL",
         default=None,
-        help=f"{', '.join(QUALITIES)} (default: auto in a window, medium off screen)",
+        help=f"{', '.join(QUALITIES)} (default: auto in a window; off screen medium, as "
+        "auto follows the speed of the machine)",
     )
     add(
         "--backend",

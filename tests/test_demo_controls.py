@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
+import sys
+from collections.abc import Callable
+from types import ModuleType, SimpleNamespace
 
+import pyglet
 import pytest
 
+from demo_game.gamepad import Gamepads
 from demo_game.input import PRESET_KEYS, Controls, Stick, dead_zone
 from demo_game.mood import CHANGE_TIME, STRONGEST_WIND, MoodChanger, preset_mood
 from demo_game.settings import FIELDS_OF_VIEW, QUALITIES, Settings, step
 from demo_game.skies import TIMES, SkyChanger
-from demo_game.ui.menu import Menu, MenuActions, pause_menu
+from demo_game.ui.menu import Menu, MenuActions, MouseRest, pause_menu
 from weather_ecs.presets import PRESETS
 
 
@@ -168,3 +173,77 @@ def test_light_is_finite_and_never_from_below(overcast: float) -> None:
 def test_clouds_take_the_sun_away() -> None:
     sky = SkyChanger()
     assert max(sky.light(1.0).sun_color) < 0.1 * max(sky.light(0.0).sun_color)
+
+
+class FakePad:
+    """A gamepad as pyglet gives it, without the plastic."""
+
+    def __init__(self, broken: bool = False) -> None:
+        self.broken, self.is_open = broken, False
+        self.handlers: dict[str, Callable[..., None]] = {}
+
+    def open(self) -> None:
+        if self.broken:
+            raise OSError("no permission")
+        self.is_open = True
+
+    def close(self) -> None:
+        self.is_open = False
+
+    def push_handlers(self, **handlers: Callable[..., None]) -> None:
+        self.handlers.update(handlers)
+
+    def remove_handlers(self, **handlers: Callable[..., None]) -> None:
+        for name in handlers:
+            self.handlers.pop(name)
+
+
+@pytest.fixture
+def pads(monkeypatch: pytest.MonkeyPatch) -> list[FakePad]:
+    found: list[FakePad] = []
+    manager = FakePad()
+    manager.get_controllers = lambda: found  # type: ignore[attr-defined]
+    module = ModuleType("pyglet.input")
+    module.ControllerManager = lambda: manager  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "pyglet.input", module)
+    monkeypatch.setattr(pyglet, "input", module)
+    return found
+
+
+def test_a_gamepad_walks_looks_jumps_and_pauses(pads: list[FakePad]) -> None:
+    pad, controls, paused = FakePad(), Controls(), []
+    pads.append(pad)
+    gamepads = Gamepads(controls, pause=lambda: paused.append(True))
+    assert pad.is_open
+    pad.handlers["on_stick_motion"](pad, "leftstick", SimpleNamespace(x=1.0, y=0.0))
+    pad.handlers["on_stick_motion"](pad, "rightstick", SimpleNamespace(x=-1.0, y=0.0))
+    pad.handlers["on_button_press"](pad, "a")
+    pad.handlers["on_button_press"](pad, "b")
+    pad.handlers["on_button_press"](pad, "start")
+    intent = controls.intent()
+    assert (intent.right, intent.run, intent.jump) == (1.0, True, True)
+    assert controls.turn(0.1)[0] > 0.0
+    assert paused == [True]
+    pad.handlers["on_button_release"](pad, "a")
+    pad.handlers["on_button_release"](pad, "b")
+    assert not controls.intent().jump
+    gamepads.close()
+    assert not pad.is_open
+    assert controls.intent().right == 0.0
+
+
+def test_a_gamepad_that_does_not_open_is_left_alone(pads: list[FakePad]) -> None:
+    pads.append(FakePad(broken=True))
+    Gamepads(Controls(), pause=lambda: None).close()
+    assert pads[0].handlers == {}
+
+
+def test_mouse_that_the_game_sets_free_is_no_choice() -> None:
+    rest = MouseRest()
+    assert not rest.moved(100, 100)
+    rest.frame()
+    assert not rest.moved(240, 135)  # put back where it was
+    for _ in range(3):
+        rest.frame()
+    assert not rest.moved(241, 135)
+    assert rest.moved(250, 135)
