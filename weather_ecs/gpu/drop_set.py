@@ -44,10 +44,13 @@ class DropSet:
         self.alive = 0  # drops that the last step moved
         self.streaks: StreakList | None = None  # those in view, where they are listed
         self._ctx = ctx
-        self._arrays = {
-            name: [self._array(program, state, None) for state in self.states]
-            for name, program in programs.items()
-        }
+        self._arrays: dict[str, list[moderngl.VertexArray]] = {}
+        for name, program in programs.items():
+            self.add_reader(name, program)
+
+    def add_reader(self, name: str, program: moderngl.Program) -> None:
+        """A program that is run over the drops: `array(name)` is for it from here on."""
+        self._arrays[name] = [self._array(program, state, None) for state in self.states]
 
     def array_for(self, program: moderngl.Program, ids: moderngl.Buffer) -> moderngl.VertexArray:
         """A vertex array over the drops that `ids` lists; the caller's to release."""

@@ -69,7 +69,7 @@ class RainPass:
         self._programs[name] = program
         for seen in self._observed.values():
             for drops in seen.sets.values():
-                drops.add_reader(self._ctx, name, program)
+                drops.add_reader(name, program)
 
     @property
     def has_lists(self) -> bool:

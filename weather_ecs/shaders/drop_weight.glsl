@@ -4,12 +4,18 @@
 #include "rain_area.glsl"
 #include <block:RainDraw>
 
-float drop_weight(vec3 p, float own_reach, int id, out float d)
+// Where the area's rain is full.
+float drop_load_at(vec3 p, float own_reach, int id, out float d)
 {
     vec2 q = to_container(p.xz, container_axis, container_shape.xy);
     d = min(length(q), 0.999);
     float rim = clamp((1.0 - d / own_reach) * 4.0, 0.0, 1.0);
     float last = clamp((drop_load.y - float(id)) * drop_load.z, 0.0, 1.0);
     float shape = d < 0.75 ? 0.875 - d : 2.0 * (1.0 - d) * (1.0 - d);
-    return drop_load.x * d / shape * rim * last * area_factor(p.xz, area_axis, area_shape);
+    return drop_load.x * d / shape * rim * last;
+}
+
+float drop_weight(vec3 p, float own_reach, int id, out float d)
+{
+    return drop_load_at(p, own_reach, id, d) * area_factor(p.xz, area_axis, area_shape);
 }
