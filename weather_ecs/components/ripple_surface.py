@@ -41,7 +41,7 @@ class RippleSurface(Component):
     size: tuple[float, float]  # m, along and across the heading; each 0.01 to 1e5
     heading: float = 0.0  # rad, counter-clockwise seen from above; 0 has the first side along +x
     shape: str = "rectangle"  # or "ellipse", inside that rectangle
-    cell: float = 0.02  # m, 0.001 to 10; rings are about five cells from crest to crest
+    cell: float = 0.015  # m, 0.001 to 10; rings are about five cells from crest to crest
     speed: float = 0.3  # m/s, 0.01 to 10, of the rings
     damping: int = 5  # 5 to 9; a step takes 1 / 2**damping off the waves
     amplitude: float = 1.0  # 0 to 100, factor on the height of the waves

@@ -31,8 +31,9 @@ COURANT = math.sqrt(0.75)  # cells that a long wave covers in a step
 # What a drop does to the grid; also in shaders/ripple_source.vert.
 WIDTH = 1.25  # cells, of the crater: its radius over sqrt(2)
 SPREAD = 4.0 * WIDTH  # cells, beyond which a source is nothing
-DEPTH = 0.04  # mm of crater per unit of mm^1.5 m/s, for one real drop
-SHALLOWEST, DEEPEST = 1.2, 6.0  # mm
+DEPTH = 0.08  # mm of crater per unit of mm^1.5 m/s, for one real drop
+SHALLOWEST, DEEPEST = 3.5, 9.0  # mm
+ROUGHEST = 0.08  # at 25 mm/h
 ON_SURFACE = 0.05  # m, height within which an impact is one on the water
 
 
@@ -99,19 +100,27 @@ def time_step(cell: float, speed: float) -> float:
     return COURANT * number("cell", cell, 0.0, above=True) / number("speed", speed, 0.0, above=True)
 
 
-def depths(
-    positions: NDArray[np.float32], diameters: NDArray, speeds: NDArray, weights: NDArray
-) -> NDArray[np.float32]:
-    """Depth in mm of the crater of each impact, (n,); positions (n, 3) m, diameters mm, m/s.
+def settling_steps(n: int) -> int:
+    """Steps after which the deepest crater's waves are below the threshold, however they meet."""
+    return math.ceil(2.0 * math.log(THRESHOLD / DEEPEST) / math.log(kept_share(n)))
 
-    The waves' energy is that of the falling drops, so the depth grows with the root of the real
-    drops that one stands for. A crater that could not be seen is left out by lot, or made as deep
-    as can be seen, so often that the energy stays right.
+
+def roughness(rain_rate: Any) -> NDArray[np.float64]:
+    """Slope, root of the mean square, that rain at mm/h gives to water, all sizes of waves."""
+    rate = np.asarray(rain_rate, np.float64)
+    return ROUGHEST * np.minimum(np.sqrt(rate / 25.0), 1.5)
+
+
+def craters(positions: Any, diameters: Any, speeds: Any, weights: Any) -> NDArray[np.float32]:
+    """Depth in mm of the crater of each impact, (n,); 0 where there is none.
+
+    Positions (n, 3) m, diameters mm, speeds m/s, weights in real drops. The waves' energy is that
+    of the falling drops, so a depth grows with the root of the weight. A crater that could not be
+    seen is left out by lot, or made as deep as can be seen, so often that the energy stays right.
     """
-    d = np.asarray(diameters, np.float32)
-    energy = d * np.sqrt(d) * np.asarray(speeds, np.float32)
-    deep = np.float32(DEPTH) * energy * np.sqrt(np.asarray(weights, np.float32))
-    p = np.ascontiguousarray(positions, np.float32)
+    p = np.ascontiguousarray(positions, np.float32).reshape(-1, 3)
+    d, v, w = (np.asarray(a, np.float32) for a in (diameters, speeds, weights))
+    deep = np.float32(DEPTH) * d * np.sqrt(d) * v * np.sqrt(w)
     word = hash_word(p[:, 0].copy().view(np.uint32)) ^ p[:, 2].copy().view(np.uint32)
     share = deep / np.float32(SHALLOWEST)
     drawn = hash_unit(word) < share * share

@@ -1,0 +1,34 @@
+"""`RippleMap`: what a shader, ours or the game's, needs to draw rippled water."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import moderngl
+
+Four = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class RippleMap:
+    """The ripples of one surface as they were drawn last; level where there are none.
+
+    For a program whose shader includes `ripple_sample.glsl`. Good until the next draw.
+    """
+
+    texture: moderngl.Texture
+    place: Four  # the shader's ripple_place
+    scale: Four  # the shader's ripple_scale
+    window: Four  # middle and half sizes of the part where real drops make rings, own axes, m
+
+    def use(self, program: Any, unit: int = 0) -> None:
+        """Bind the texture to a unit, and set the program's uniforms."""
+        self.texture.use(unit)
+        for name, value in (
+            ("ripple_map", unit),
+            ("ripple_place", self.place),
+            ("ripple_scale", self.scale),
+        ):
+            if name in program:
+                program[name] = value
