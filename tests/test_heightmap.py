@@ -265,7 +265,7 @@ def drawing(maps: Maps, transform: np.ndarray, calls: list[np.ndarray]) -> Any:
 
     def draw(matrix: np.ndarray) -> None:
         calls.append(matrix)
-        maps.meshes.draw(mesh, matrix)
+        maps.meshes.draw([mesh], matrix)
 
     return draw
 
@@ -473,3 +473,30 @@ def test_a_roof_in_wind_is_dry_on_its_lee_side(rain: Rain) -> None:
     assert roofed[1] == 0 and shadow > 50
     assert roofed[0] > 0.5 * windward
     assert roofed[2] > 0.2 * lee  # small drops, which slant more, meet the roof from farther off
+
+
+def test_occluders_that_share_a_mesh_are_one_draw_and_those_outside_are_left_out(
+    ctx: moderngl.Context,
+) -> None:
+    """A field of a thousand posts: one mesh on the GPU, only those in the map drawn."""
+    shaders = ShaderLoader(ctx)
+    meshes = OccluderMeshes(ctx, shaders)
+    target = ctx.simple_framebuffer((64, 64))
+    target.use()
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 0, 1]], np.float32)
+    faces = np.array([0, 1, 2], np.uint32)
+    field = []
+    for k in range(1000):
+        place = np.eye(4)
+        place[:3, 3] = (k % 100 - 50.0) * 4.0, 0.0, (k // 100 - 5.0) * 4.0
+        field.append(OccluderData(k, place, False, points, faces))
+    # A map of 100 m about the origin.
+    to_map = np.array([[0.02, 0, 0, 0], [0, 0, 0.02, 0], [0, 0.01, 0, 0], [0, 0, 0, 1.0]])
+    within = [o for o in field if abs(o.transform[0, 3]) < 50]
+    drawn = meshes.draw(field, to_map)
+    assert len(meshes) == 1
+    assert len(within) <= drawn <= len(within) + 20
+    meshes.release()
+    shaders.release()
+    for thing in (*target.color_attachments, target.depth_attachment, target):
+        thing.release()

@@ -41,8 +41,10 @@ class Heightmap:
         # What does not move, without what does.
         self.static_texture, self._static_target = self._layer()
         self.texture, self._target = self._layer()
-        self._static_seen: tuple[tuple[int, ...], ...] | None = None
-        self._dynamic_seen: tuple[tuple[int, ...], ...] | None = None
+        self._seen: tuple[OccluderData, ...] | None = None
+        self._still: list[OccluderData] | None = None
+        self._moving: list[OccluderData] = []
+        self._callbacks = False  # among what moves: the game may draw it elsewhere at any time
         self._broken: set[int] = set()
 
     def _layer(self) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
@@ -67,26 +69,27 @@ class Heightmap:
         """
         before = self.footprint
         place = footprint(position, reach, wind, fall_speed, self.size, before, extent)
+        # An occluder that has not changed is the same object, and lists compare by identity.
+        if occluders is self._seen and place == before and not self._callbacks:
+            return False
+        self._seen = occluders
         still = [o for o in occluders if not o.dynamic and o.key not in self._broken]
         moving = [o for o in occluders if o.dynamic and o.key not in self._broken]
-        static_seen = tuple(map(_identity, still))
-        dynamic_seen = tuple(map(_identity, moving))
-        fresh = place != self.footprint or static_seen != self._static_seen
-        callbacks = any(o.draw is not None for o in moving)
-        if not fresh and dynamic_seen == self._dynamic_seen and not callbacks:
+        fresh = place != before or still != self._still
+        self._callbacks = any(o.draw is not None for o in moving)
+        if not fresh and moving == self._moving and not self._callbacks:
             return False
         self.footprint = place
         self._prepare(self._static_target)
         if fresh:
             self._static_target.clear(depth=1.0)
             self._draw(still, place, self._static_target)
-            self._static_seen = static_seen
+            self._still = still
             self.static_captures += 1
         self._copy_static()
         self._prepare(self._target)
         self._draw(moving, place, self._target)
-        self._dynamic_seen = dynamic_seen
-        self._kept = (still, moving)
+        self._moving = moving
         self.captures += 1
         return True
 
@@ -108,9 +111,9 @@ class Heightmap:
         # From [0, 1] to clip space, where the depth runs the same way.
         clip = np.array([[2.0, 0, 0, -1.0], [0, 2.0, 0, -1.0], [0, 0, 2.0, -1.0], [0, 0, 0, 1.0]])
         to_map = clip @ place.matrix()
+        self._meshes.draw([o for o in occluders if o.draw is None], to_map)
         for occluder in occluders:
             if occluder.draw is None:
-                self._meshes.draw(occluder, to_map)
                 continue
             try:
                 occluder.draw(to_map.copy())
@@ -135,12 +138,3 @@ class Heightmap:
         """Give everything back; twice does no harm."""
         for thing in (self._target, self.texture, self._static_target, self.static_texture):
             thing.release()
-
-
-def _identity(occluder: OccluderData) -> tuple[int, ...]:
-    """What differs where an occluder has changed: a new mesh, place or callback is a new object.
-
-    The map keeps what it has captured, so that no identity is used twice unnoticed.
-    """
-    o = occluder
-    return (o.key, id(o.transform), id(o.vertices), id(o.indices), id(o.draw))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -10,23 +12,48 @@ from weather_ecs.frame import OccluderData
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 
 DRAW = ProgramKey(vertex="occluder.vert", fragment="occluder.frag")
+MATRIX_BYTES = 64
 
 
 class _Mesh:
+    """One mesh, and room for the matrices of those that share it."""
+
     def __init__(
         self, ctx: moderngl.Context, program: moderngl.Program, occluder: OccluderData
     ) -> None:
         # Holding the arrays keeps their identities, by which meshes are found, from being reused.
         self.arrays = (occluder.vertices, occluder.indices)
-        self.vertices = ctx.buffer(np.ascontiguousarray(occluder.vertices, np.float32))
-        self.indices = ctx.buffer(np.ascontiguousarray(occluder.indices, np.uint32))
-        self.array = ctx.vertex_array(
-            program, [(self.vertices, "3f", "in_vertex")], index_buffer=self.indices
+        points = np.ascontiguousarray(occluder.vertices, np.float32)
+        low, high = points.min(axis=0), points.max(axis=0)
+        self.center = (0.5 * (low + high)).astype(np.float64)
+        self.radius = 0.5 * float(np.linalg.norm(high - low))
+        self._ctx, self._program = ctx, program
+        self._vertices = ctx.buffer(points)
+        self._indices = ctx.buffer(np.ascontiguousarray(occluder.indices, np.uint32))
+        self._make_room(1)
+
+    def _make_room(self, count: int) -> None:
+        self._room = count
+        self._matrices = self._ctx.buffer(reserve=count * MATRIX_BYTES, dynamic=True)
+        self._array = self._ctx.vertex_array(
+            self._program,
+            [(self._vertices, "3f", "in_vertex"), (self._matrices, "16f/i", "in_to_map")],
+            index_buffer=self._indices,
         )
-        self.used = True
+
+    def draw(self, matrices: NDArray[np.float64]) -> None:
+        """Draw it once for each matrix, (n, 4, 4) for column vectors."""
+        count = len(matrices)
+        if count > self._room:
+            self._array.release()
+            self._matrices.release()
+            self._make_room(1 << (count - 1).bit_length())
+        self._matrices.orphan()
+        self._matrices.write(np.ascontiguousarray(matrices.transpose(0, 2, 1), np.float32))
+        self._array.render(moderngl.TRIANGLES, instances=count)
 
     def release(self) -> None:
-        for thing in (self.array, self.indices, self.vertices):
+        for thing in (self._array, self._matrices, self._indices, self._vertices):
             thing.release()
 
 
@@ -38,16 +65,37 @@ class OccluderMeshes:
         self._program = shaders.program(DRAW)
         self._meshes: dict[tuple[int, int], _Mesh] = {}
 
-    def draw(self, occluder: OccluderData, to_map: NDArray[np.float64]) -> None:
-        """Draws one occluder with the map's matrix into the bound target."""
-        key = (id(occluder.vertices), id(occluder.indices))
-        mesh = self._meshes.get(key)
-        if mesh is None:
-            mesh = self._meshes[key] = _Mesh(self._ctx, self._program, occluder)
-        self._program["to_map"].write(np.asfortranarray(to_map @ occluder.transform, np.float32).T)
-        mesh.array.render(moderngl.TRIANGLES)
+    def draw(self, occluders: Iterable[OccluderData], to_map: NDArray[np.float64]) -> int:
+        """Draw occluders that have meshes with the map's matrix (4, 4); returns how many are in it.
 
-    def keep(self, occluders: tuple[OccluderData, ...]) -> None:
+        `to_map` takes world points to the map's clip space. What lies outside is left out, and what
+        shares a mesh is drawn at once.
+        """
+        groups: dict[tuple[int, int], list[NDArray]] = {}
+        for occluder in occluders:
+            key = (id(occluder.vertices), id(occluder.indices))
+            group = groups.get(key)
+            if group is None:
+                group = groups[key] = []
+                if key not in self._meshes:
+                    self._meshes[key] = _Mesh(self._ctx, self._program, occluder)
+            group.append(occluder.transform)
+        # How far a sphere of radius 1 reaches in the map, which is sheared.
+        reach = np.linalg.norm(to_map[:2, :3], axis=1)
+        drawn = 0
+        for key, transforms in groups.items():
+            mesh = self._meshes[key]
+            places = np.array(transforms, np.float64)
+            centers = places[:, :3, :3] @ mesh.center + places[:, :3, 3]
+            grown = np.sqrt((places[:, :3, :3] ** 2).sum(axis=(1, 2))) * mesh.radius
+            at = np.abs(centers @ to_map[:2, :3].T + to_map[:2, 3])
+            within = (at <= 1.0 + grown[:, None] * reach).all(axis=1)
+            if within.any():
+                mesh.draw(to_map @ places[within])
+                drawn += int(within.sum())
+        return drawn
+
+    def keep(self, occluders: Iterable[OccluderData]) -> None:
         """Give back the meshes that none of `occluders` uses."""
         wanted = {(id(o.vertices), id(o.indices)) for o in occluders if o.vertices is not None}
         for key in [k for k in self._meshes if k not in wanted]:
