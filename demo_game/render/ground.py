@@ -53,7 +53,8 @@ class Ground:
         self._chunks, self._coarse = mesh.chunks, mesh.coarse
         self._low, self._high = mesh.low, mesh.high
         inside = (mesh.low[:, [0, 2]] > paint.LOW + paint.MARGIN).all(axis=1)
-        self._painted = inside & (mesh.high[:, [0, 2]] < paint.HIGH - paint.MARGIN).all(axis=1)
+        inside &= (mesh.high[:, [0, 2]] < paint.HIGH - paint.MARGIN).all(axis=1)
+        self._painted = np.asarray(inside, bool)
         table = place.meadow
         self.map = ctx.texture((table.shape[1], table.shape[0]), 4, table.tobytes())
         self.map.build_mipmaps()
@@ -94,7 +95,7 @@ class Ground:
         if not len(seen):
             return
         away = geometry.box_distance(camera, self._low[seen], self._high[seen])
-        near: NDArray = self._painted[seen] & (away < DETAIL_REACH)
+        near = self._painted[seen] & (away < DETAIL_REACH)
         wet, live = self._wet_chunks(environment)[seen], self._live_chunks(spheres, sun)[seen]
         kind: NDArray = np.where(near, 1 + wet + 2 * live, 0)
         fine = away < COARSE_FROM

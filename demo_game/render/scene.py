@@ -24,10 +24,9 @@ from .statics import Actors, Statics
 from .trees import Trees
 from .water import Halos, LampPools, Water
 
-SHADOW_UNIT, DETAIL_UNIT, MEADOW_UNIT, SKY_UNIT, MIRROR_UNIT, LEAF_UNIT = range(6)
+SHADOW_UNIT, DETAIL_UNIT, MEADOW_UNIT, SKY_UNIT, LEAF_UNIT = range(5)
 MOVING_SHADOWS = 140.0  # m from the camera
-SUN_STRENGTH = 2.6  # of the sun against its colour; as in light.glsl
-POND_MIRROR = 70.0  # m, up to which the pond mirrors more than the sky
+SUN_STRENGTH = 2.6  # of the sun against its colour
 
 
 class SceneRenderer:
@@ -50,7 +49,6 @@ class SceneRenderer:
         self._detail = ctx.texture((table.shape[1], table.shape[0]), 4, table.tobytes())
         self._detail.build_mipmaps()
         self._detail.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
-        self._mirror = ctx.texture((1, 1), 4, b"\0" * 4)
         units = {"shadow_map": SHADOW_UNIT, "detail_map": DETAIL_UNIT, "leaf_map": LEAF_UNIT}
         solid = (self._statics.program, self._actors.program, self._trees.program,
                  self._trees.solid, self._meadow.program)  # fmt: skip
@@ -96,6 +94,7 @@ class SceneRenderer:
         camera = self._block.camera(v, p)
         planes = geometry.frustum_planes(p @ v)
         sun = unit(environment.sun_direction)
+        self.ctx.wireframe = False
         self._actors.pose(time)
         self._update_shadows(sun, camera)
         self._block.fill(time, environment, self._shadows.lookup)
@@ -108,17 +107,16 @@ class SceneRenderer:
         target.viewport = viewport
         scissor(target, None)
         target.depth_mask = True
-        target.clear(0.0, 0.0, 0.0, 1.0)
+        target.clear(0.0, 0.0, 0.0, 1.0, viewport=viewport)
         self._draw_solid(planes, camera, environment)
         self._sky.draw(v, p)
-        self._draw_blended(target, viewport, v, planes, camera)
+        self._draw_blended(target, v, planes, camera)
 
     def _bind_maps(self) -> None:
         self._shadows.live.use(SHADOW_UNIT)
         self._detail.use(DETAIL_UNIT)
         self._ground.map.use(MEADOW_UNIT)
         self._sky.map.use(SKY_UNIT)
-        self._mirror.use(MIRROR_UNIT)
 
     def _draw_solid(self, planes: NDArray, camera: NDArray, environment: Environment) -> None:
         ctx, quality = self.ctx, self._quality
@@ -137,10 +135,10 @@ class SceneRenderer:
         ctx.disable(moderngl.CULL_FACE)
 
     def _draw_blended(
-        self, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int], view: NDArray,
-        planes: NDArray, camera: NDArray,
-    ) -> None:  # fmt: skip
+        self, target: moderngl.Framebuffer, view: NDArray, planes: NDArray, camera: NDArray
+    ) -> None:
         target.depth_mask = False
+        self.ctx.blend_equation = moderngl.FUNC_ADD
         self._bind_maps()
         if self._water.seen(planes, camera) < np.inf:
             self._water.draw()
@@ -169,4 +167,4 @@ class SceneRenderer:
         self._released = True
         release_all((self._halos, self._pools, self._water, self._meadow, self._trees))
         release_all((self._actors, self._statics, self._ground_shadow, self._ground))
-        release_all((self._shadows, self._sky, self._detail, self._mirror, self._block))
+        release_all((self._shadows, self._sky, self._detail, self._block))

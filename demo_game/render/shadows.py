@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import moderngl
@@ -12,7 +13,7 @@ from .programs import compile_program, release_all, scissor
 
 LOW = np.array([-64.0, -4.0, -170.0])  # m, what the map covers
 HIGH = np.array([64.0, 22.0, 94.0])
-TURN = 0.9998  # cosine of the sun's turn that asks for a new map
+TURN_STILL, TURN_MOVING = math.radians(0.3), math.radians(4.0)  # turns that ask for a new map
 BIAS = 0.00014  # in the map's depth
 
 
@@ -51,14 +52,18 @@ class Shadows:
         self._copy = compile_program(ctx, "sky_bake.vert", "depth_copy.frag")
         self._quad = ctx.buffer(np.array([-1, -1, 3, -1, -1, 3], "f4"))
         self._copy_array = ctx.vertex_array(self._copy, [(self._quad, "2f4", "in_position")])
-        self.sun: NDArray | None = None
+        self.sun: NDArray | None = None  # the map's
+        self._seen: NDArray | None = None  # the last frame's
         self.matrix = np.eye(4)
         self.lookup = np.eye(4)
         self._dirty: list[tuple[int, int, int, int]] = []
 
     def needs(self, sun: NDArray) -> bool:
-        """Whether the sun has moved too far from the map's."""
-        return self.sun is None or float(self.sun @ sun) < TURN
+        """Whether the sun is too far from the map's; while it moves more is let pass."""
+        moves = self._seen is not None and float(np.abs(self._seen - sun).max()) > 1e-6
+        self._seen = sun
+        allowed = TURN_MOVING if moves else TURN_STILL
+        return self.sun is None or float(self.sun @ sun) < math.cos(allowed)
 
     def draw_still(self, sun: NDArray, draw: Callable[[NDArray], None]) -> None:
         """Make the map anew; `draw(matrix)` draws what stands still."""

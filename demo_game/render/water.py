@@ -14,7 +14,7 @@ from .frame_block import FrameBlock
 from .programs import compile_program, release_all, set_matrix, set_uniforms
 
 POOL_RADIUS = 9.0  # m
-UNITS = {"detail_map": 1, "sky_map": 3, "mirror_map": 4}
+UNITS = {"detail_map": 1, "sky_map": 3}
 
 
 class Water:

@@ -67,7 +67,9 @@ void main() {
     float wet = cover.y * smoothstep(0.30, 0.75, sky);
     albedo *= 1.0 - 0.42 * wet * (0.55 + 0.45 * n.y) * (1.0 - 0.5 * leaf);
     vec3 ambient = sky_light(n, cover.x) * sky;
-    ambient += LAMP_COLOR * (LAMP_STRENGTH * lamp * sun_direction.w);
+    // Where no sky is seen lamps burn by day as well.
+    float burn = mix(0.9, sun_direction.w, min(sky * 1.6, 1.0));
+    ambient += LAMP_COLOR * (LAMP_STRENGTH * lamp * burn);
     vec3 shade = albedo * ambient;
     vec3 sun = albedo * sun_full * (sun_share(facing, cover.x) * mix(1.0, 0.3 + 0.7 * sky, leaf));
 #ifndef TREES

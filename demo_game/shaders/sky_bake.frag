@@ -27,9 +27,8 @@ vec3 air(vec3 d) {
 // Clouds on flat ceilings, bent down to the horizon. rgb colour, a cover.
 vec4 layer(vec3 d, float cover) {
     float up = max(d.y, 0.0) + 0.09;
-    vec2 drift = wind.xy * camera.w;
     vec2 p = d.xz / up;
-    vec2 q = p * 0.062 + drift * 0.00035;
+    vec2 q = p * 0.062 - drift.xy * 0.00009;
     float low = texture(cloud_map, q).r;
     float fine = texture(cloud_map, q * 3.3 + 0.31).r;
     float finer = texture(cloud_map, q * 9.1 + 0.77).r;
@@ -45,7 +44,7 @@ vec4 layer(vec3 d, float cover) {
     vec3 dark = grey * mix(0.74, 0.50, body);
     float thick = smoothstep(0.2, 1.0, body) * (0.35 + 0.65 * cover);
     vec3 color = mix(bright, dark, clamp(thick + 0.55 * (1.0 - lit), 0.0, 1.0));
-    float wisp = smoothstep(0.48, 0.80, texture(cloud_map, p * 0.030 + drift * 0.00018).g);
+    float wisp = smoothstep(0.48, 0.80, texture(cloud_map, p * 0.030 - drift.xy * 0.00005).g);
     float far = smoothstep(0.015, 0.20, d.y);
     body *= far;
     wisp *= 0.40 * far * (1.0 - body) * (1.0 - 0.6 * cover);
@@ -67,7 +66,7 @@ vec4 storm(vec3 d, int i) {
     vec3 near = origin + way * along;
     float miss = length(near);
     vec2 side = d.xz / (abs(d.y) + 0.55);
-    vec2 p = near.xz * 0.22 + side * 0.15 + wind.xy * (camera.w * 0.0006);
+    vec2 p = near.xz * 0.22 + side * 0.15 - drift.xy * 0.00016;
     float low = texture(cloud_map, p).r;
     float fine = texture(cloud_map, p * 2.9 + 0.17).r;
     float finer = texture(cloud_map, p * 7.3 + 0.43).r;
@@ -80,13 +79,14 @@ vec4 storm(vec3 d, int i) {
     float aside = length(o + fd * reach);
     float streak = (texture(cloud_map, vec2(aside * 0.6 + d.x * 0.4, d.y * 0.06)).g - 0.5) * 0.4;
     float column = 1.0 - smoothstep(0.80, 1.45, aside + streak);
-    column *= 1.0 - smoothstep(0.15, 0.80, d.y);
+    float base = cloud.x - cloud.y - camera.y;  // the shaft ends where the cloud begins
+    column *= 1.0 - smoothstep(0.7, 1.9, d.y / flat_length * max(reach, 12.0) / max(base, 8.0));
     vec3 sky = mix(zenith_color.rgb, horizon_color.rgb, 0.5);
     vec3 grey = mix(sky, vec3(dot(sky, vec3(0.3, 0.6, 0.1))) * vec3(0.96, 1.0, 1.06), 0.6);
     float top = smoothstep(-0.25, 0.9, near.y + torn * 0.8);
     float faced = 0.5 + 0.5 * dot(normalize(vec3(near.x, 0.35, near.z)), sun_direction.xyz);
     vec3 color = grey * (0.26 + 0.42 * low * low + 0.16 * (fine - 0.5) + 0.12 * (finer - 0.5));
-    color += (sun_color.rgb * 0.42 * faced * faced + grey * 0.20) * top * (0.5 + fine);
+    color += (sun_color.rgb * 0.26 * faced * faced + grey * 0.16) * top * (0.4 + fine);
     float share = max(body, 0.80 * column);
     color = mix(grey * (0.27 + 0.20 * streak), color, body / max(share, 0.001));
     return vec4(color, share * cloud.w);

@@ -5,10 +5,6 @@
 
 uniform sampler2D detail_map;
 uniform sampler2D sky_map;
-#ifdef MIRROR
-uniform sampler2D mirror_map;
-uniform vec2 texel;   // 1 / viewport width, height
-#endif
 
 in vec4 v_view;
 in vec3 v_light;
@@ -23,10 +19,6 @@ void main() {
     vec2 wave = texture(detail_map, v_place * 0.13 + drift).ba - 0.5;
     wave *= 0.05;
     vec3 sky = texture(sky_map, sky_uv_unit(vec3(wave - view.xz, view.y).xzy)).rgb;
-#ifdef MIRROR
-    vec4 scene = texture(mirror_map, gl_FragCoord.xy * texel + wave * vec2(0.4, 1.0));
-    sky = mix(sky, scene.rgb, scene.a);
-#endif
     float away = 1.0 - max(view.y, 0.0);
     float away2 = away * away;
     float fresnel = 0.02 + 0.98 * away2 * away2 * away;
