@@ -18,6 +18,7 @@ from weather_ecs.presets import PRESETS
 DEFAULT_OUT = Path("out") / "demo"
 LARGEST_SIZE = 8192
 MOST_FRAMES = 1_000_000
+INTERRUPTED = 130  # what a shell calls Ctrl-C
 
 
 class _Parser(argparse.ArgumentParser):
@@ -144,6 +145,13 @@ def build_parser() -> argparse.ArgumentParser:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the game; returns the exit code."""
     options = build_parser().parse_args(arguments)
+    try:
+        return _run(options)
+    except KeyboardInterrupt:
+        return INTERRUPTED
+
+
+def _run(options: argparse.Namespace) -> int:
     settings = Settings(
         quality=options.quality or ("medium" if options.headless else "auto"),
         backend=options.backend,
