@@ -19,16 +19,17 @@ def blocked(
 ) -> NDArray:
     """(n,) whether each ray meets a block between 2 cm and `reach` metres."""
     hit = np.zeros(len(origins), bool)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        for block in blocks:
-            local = (origins - block.center) @ block.rotation
-            way = directions @ block.rotation
-            way = np.where(np.abs(way) < 1e-9, 1e-9, way)
-            half = block.size / 2.0
-            one, two = (-half - local) / way, (half - local) / way
-            enter = np.minimum(one, two).max(axis=1)
-            leave = np.maximum(one, two).min(axis=1)
-            hit |= (leave > np.maximum(enter, 0.02)) & (enter < reach) & (leave > 0.02)
+    points, ways = origins.astype("f4"), directions.astype("f4")
+    for block in blocks:
+        turn, half = block.rotation.astype("f4"), (block.size / 2.0).astype("f4")
+        local = (points - block.center.astype("f4")) @ turn
+        way = ways @ turn
+        pace = np.float32(1.0) / np.where(np.abs(way) < 1e-6, np.float32(1e-6), way)
+        middle, width = -local * pace, half * np.abs(pace)
+        low, high = middle - width, middle + width
+        enter = np.maximum(np.maximum(low[:, 0], low[:, 1]), low[:, 2])
+        leave = np.minimum(np.minimum(high[:, 0], high[:, 1]), high[:, 2])
+        hit |= (leave > np.maximum(enter, 0.02)) & (enter < reach)
     return hit
 
 
@@ -39,7 +40,7 @@ def hemisphere(count: int) -> NDArray:
     return np.stack([radius * np.cos(angle), radius * np.sin(angle), np.sqrt(1 - k / count)], 1)
 
 
-def sky_seen(points: NDArray, normals: NDArray, blocks: Sequence[Block], rays: int = 40) -> NDArray:
+def sky_seen(points: NDArray, normals: NDArray, blocks: Sequence[Block], rays: int = 32) -> NDArray:
     """(n,) cosine-weighted share of the half sphere above each point that is open."""
     helper = np.where(np.abs(normals[:, 1:2]) < 0.9, (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
     side = np.cross(helper, normals)

@@ -11,6 +11,7 @@ from . import layout, palette
 from .noise import smoothstep
 from .terrain import Terrain
 
+CANDIDATES = 125000
 PATCH = 10.0  # m, side of a patch
 
 
@@ -28,20 +29,23 @@ class Grass:
 
 def _stands(terrain: Terrain, rng: np.random.Generator) -> NDArray:
     """(n, 4) x, z, height m, kind: 0 grass, 1 reed, 2 flower."""
-    count = 95000
-    x, z = rng.uniform(-24, 24, count), rng.uniform(-170, 92, count)
+    x, z = rng.uniform(-24, 24, CANDIDATES), rng.uniform(-170, 92, CANDIDATES)
+    middle = np.interp(z, terrain.path[::-1, 1], terrain.path[::-1, 0])
+    near = (np.abs(x - middle) < 11.5) | ((z > -90.0) & (z < -42.0) & (x > -4.0))
+    x, z = x[near], z[near]
+    count = len(x)
     points = np.stack([x, z], 1)
     trail = terrain.trail_distance(points)
     clump = terrain.noise.fbm(x / 3.1, z / 3.1 + 50, 3)
     chance = smoothstep(1.0, 1.6, trail) * smoothstep(11.0, 1.6, trail) ** 1.3
-    chance *= 0.16 + 0.84 * smoothstep(-0.05, 0.40, clump)
+    chance *= 0.28 + 0.72 * smoothstep(-0.05, 0.40, clump)
     dx, dz = np.abs(x - layout.CABIN[0]), np.abs(z - layout.CABIN[1] - 1.4)
     chance *= (dx > 3.4) | (dz > 4.6)
     loop = layout.smooth_line(layout.FIGURE_LOOP, closed=True, step=3)
     chance *= layout.distance_to_line(points, loop) > 0.7
     chance *= terrain.pond_radius(x, z) > 1.12
     keep = rng.random(count) < chance
-    tall = rng.uniform(0.10, 0.26, count) * (1.0 + 0.7 * np.clip(clump, 0, 1))
+    tall = rng.uniform(0.11, 0.27, count) * (1.0 + 0.8 * np.clip(clump, 0, 1))
     drift = smoothstep(0.10, 0.45, terrain.noise.fbm(x / 19.0 + 40, z / 19.0, 3))
     kind = np.where(rng.random(count) < 0.22 * drift, 2.0, 0.0)
     meadow = np.stack([x, z, tall, kind], 1)[keep]

@@ -30,6 +30,18 @@ def texel_grid() -> tuple[NDArray, NDArray]:
     return np.meshgrid(xs, zs)
 
 
+def _coarse(values: NDArray, step: int) -> NDArray:
+    """Values on every `step`-th texel spread over all of them, bilinearly."""
+    for axis in (0, 1):
+        following = np.roll(values, -1, axis)
+        share = np.arange(step) / step
+        spread = [values + (following - values) * t for t in share]
+        values = np.stack(spread, axis + 1).reshape(
+            [n * (step if k == axis else 1) for k, n in enumerate(values.shape)]
+        )
+    return values
+
+
 def _near(x: NDArray, z: NDArray, line: NDArray, reach: float) -> NDArray:
     """Distance of every texel from a line, `reach` where it is farther than that."""
     low, high = line.min(0) - reach, line.max(0) + reach
@@ -47,8 +59,8 @@ def meadow(terrain: Terrain, shades: Sequence[tuple[float, float, float, float]]
     """
     noise = terrain.noise
     x, z = texel_grid()
-    broad = noise.fbm(x / 34.0, z / 34.0, 3)
-    fine = noise.fbm(x / 5.5 + 7, z / 5.5, 3)
+    broad = _coarse(noise.fbm(x[::8, ::8] / 34.0, z[::8, ::8] / 34.0, 3), 8)
+    fine = _coarse(noise.fbm(x[::2, ::2] / 5.5 + 7, z[::2, ::2] / 5.5, 3), 2)
     grain = noise(x / 0.7, z / 0.7)
     color = np.broadcast_to(palette.GRASS, (*x.shape, 3))
     color = _mix(color, palette.GRASS_DRY, smoothstep(-0.05, 0.55, broad + 0.35 * fine))

@@ -138,7 +138,7 @@ class SceneRenderer:
         self, target: moderngl.Framebuffer, view: NDArray, planes: NDArray, camera: NDArray
     ) -> None:
         target.depth_mask = False
-        self.ctx.blend_equation = moderngl.FUNC_ADD
+        self.ctx.blend_equation = moderngl.FUNC_ADD, moderngl.FUNC_ADD
         self._bind_maps()
         if self._water.seen(planes, camera) < np.inf:
             self._water.draw()
