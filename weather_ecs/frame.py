@@ -71,13 +71,13 @@ class DropLook:
 class SplashLook:
     """Looks of the splashes; see `components.SplashEmitter`."""
 
-    size: float = 20.0  # factor on the radius to which the drop's water spreads
-    largest: float = 0.12  # m, radius that no crown exceeds
+    size: float = 26.0  # factor on the radius to which the drop's water spreads
+    largest: float = 0.10  # m, radius that no crown exceeds
     duration: float = 0.3  # s, from the hit until the crown has sunk
     opacity: float = 0.85  # greatest of one splash
     share: float = 0.005  # of the real drops whose splash is shown full-grown
-    droplets: float = 4.0  # mean number that one splash throws, 6 at most
-    droplet_size: float = 6.0  # mm, as they are drawn
+    droplets: float = 4.0  # mean number that one splash throws, 5 at most
+    droplet_size: float = 4.5  # mm, as they are drawn
     droplet_speed: float = 0.28  # of the drop's own speed at the hit
     spread: float = 0.7  # rad, greatest angle between a droplet's way and the normal
     drift: float = 0.3  # share of the wind that there is so close to the surface

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
 import math
 
 import moderngl
 
-from weather_ecs.frame import SplashLook, ViewData
+from weather_ecs.frame import RippleData, SplashLook, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.impact_source import ImpactReader
@@ -30,26 +28,13 @@ SPLASH = UniformBlock(
     ("splash_pull", "vec4"),  # m/s2, of the droplets; m, distance of detail
     ("splash_grain", "vec4"),  # m, diameter of a droplet as it is drawn
     ("water_axis", "vec4", MAX_WATERS),  # centre x, centre z, cos heading, sin heading
-    ("water_shape", "vec4", MAX_WATERS),  # half-sizes along the heading and across, level, m
+    ("water_shape", "vec4", MAX_WATERS),  # half-sizes along the heading and across, level, m; is an ellipse
     ("water_count", "int"),
 )
-CROWN = ProgramKey(vertex="splash.vert", geometry="splash.geom", fragment="splash.frag")
-DETAIL = ProgramKey(
-    vertex="splash.vert",
-    geometry="splash_detail.geom",
-    fragment="splash.frag",
-    defines=("DETAIL",),
-)
-
-
-@dataclass(frozen=True, slots=True)
-class WaterRectangle:
-    """Where splashes are those of water."""
-
-    center: tuple[float, float]  # (x, z), m
-    half: tuple[float, float]  # m, along the heading and across
-    heading: float  # rad
-    level: float  # m
+DRAW = ProgramKey(vertex="splash.vert", geometry="splash.geom", fragment="splash.frag")
+COUNT = ProgramKey(vertex="splash.vert", geometry="splash_count.geom")
+# Splashes are counted in one draw out of so many: it takes a pass of its own.
+COUNT_EVERY = 8
 
 
 class SplashPass:
@@ -58,58 +43,69 @@ class SplashPass:
     def __init__(
         self, ctx: moderngl.Context, gl: GL, shaders: ShaderLoader, rain: RainPass
     ) -> None:
+        self._ctx = ctx
         self._texture = splash_texture(ctx)
         self._block = BlockBuffer(ctx, SPLASH)
-        self._crowns = ImpactReader(ctx, shaders, rain, "crown", CROWN)
-        self._details = ImpactReader(ctx, shaders, rain, "splash detail", DETAIL)
-        for reader in (self._crowns, self._details):
-            reader.program["splash_frames"] = FRAMES_UNIT
+        self._splashes = ImpactReader(ctx, shaders, rain, "splash", DRAW)
+        self._splashes.program["splash_frames"] = FRAMES_UNIT
+        self._counted = ImpactReader(ctx, shaders, rain, "splash count", COUNT)
         self._counter = PrimitiveCounter(gl)
+        self._draws = 0
 
     @property
     def drawn(self) -> int:
-        """Splashes of the latest frame that the GPU has done; asked before a frame is drawn."""
-        return (self._counter.latest or 0) // 2
+        """Splashes of the latest draw that was counted; asked before a frame is drawn."""
+        return self._counter.latest or 0
 
-    def draw(
-        self, view: ViewData, look: SplashLook, waters: Sequence[WaterRectangle] = ()
-    ) -> None:
+    def draw(self, view: ViewData, look: SplashLook) -> None:
         """Blending, the depth test and a depth mask that is off are the caller's.
 
         Needs the blocks RainView and Shelter bound, and the heightmap at its unit.
         """
-        self._fill(view, look, waters)
+        self._fill(view, look)
         self._texture.use(FRAMES_UNIT)
-        if look.detail > 0.0:
-            self._details.run(view, _points)
-        self._counter.begin()
-        self._crowns.run(view, _points)
-        self._counter.end()
+        self._splashes.run(view, _points)
+        if self._draws % COUNT_EVERY == 0:
+            self._ctx.enable(moderngl.RASTERIZER_DISCARD)
+            with self._counter:
+                self._counted.run(view, _points)
+            self._ctx.disable(moderngl.RASTERIZER_DISCARD)
+        self._draws += 1
 
-    def _fill(
-        self, view: ViewData, look: SplashLook, waters: Sequence[WaterRectangle]
-    ) -> None:
+    def _fill(self, view: ViewData, look: SplashLook) -> None:
         data = self._block.data
         data["splash_look"] = (look.size, look.largest, look.duration, look.opacity)
         data["splash_spray"] = (look.share, look.droplets, look.droplet_speed, look.spread)
         data["splash_pull"] = (*acceleration(view.frame.wind, look.drift), look.detail)
         data["splash_grain"] = (look.droplet_size * 1e-3, 0.0, 0.0, 0.0)
-        count = min(len(waters), MAX_WATERS)
-        for k in range(count):
-            water = waters[k]
+        waters = nearest_waters(view)
+        for k, water in enumerate(waters):
+            x, y, z = water.center
             turn = math.cos(water.heading), math.sin(water.heading)
-            data["water_axis"][k] = (*water.center, *turn)
-            data["water_shape"][k] = (*water.half, water.level, 0.0)
-        data["water_count"] = count
+            data["water_axis"][k] = (x, z, *turn)
+            u, w = water.size
+            data["water_shape"][k] = (0.5 * u, 0.5 * w, y, water.ellipse)
+        data["water_count"] = len(waters)
         self._block.upload()
         self._block.bind()
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
-        for thing in (
-            self._counter, self._details, self._crowns, self._block, self._texture
-        ):  # fmt: skip
+        things = (self._counter, self._counted, self._splashes, self._block, self._texture)
+        for thing in things:
             thing.release()
+
+
+def nearest_waters(view: ViewData) -> tuple[RippleData, ...]:
+    """The waters that splashes can tell from ground: MAX_WATERS of them."""
+    waters = view.frame.ripples
+    if len(waters) <= MAX_WATERS:
+        return waters
+
+    def away(water: RippleData) -> float:
+        return math.dist(water.center, view.position) - 0.5 * max(water.size)
+
+    return tuple(sorted(waters, key=away)[:MAX_WATERS])
 
 
 def _points(array: moderngl.VertexArray, count: int) -> None:

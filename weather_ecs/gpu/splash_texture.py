@@ -123,15 +123,25 @@ def _burst(age: float, rng: np.random.Generator) -> tuple[Cloud, float]:
 
 
 def _film(age: float) -> NDArray[np.uint8]:
-    """Seen along the normal: water driven outwards over the ground, a frayed thin rim."""
+    """Seen along the normal: water driven out over the ground in a frayed rim, threads and beads."""
     radius, angle = _polar()
-    fray = sum(np.cos(k * angle + p) * a for k, p, a in ((5, 0.4, 0.5), (9, 2.1, 0.7), (14, 4.0, 0.4)))
-    edge = 0.72 + 0.06 * fray * (0.3 + 0.7 * age)
-    width = 0.10 - 0.05 * age
-    rim = np.exp(-(((radius - edge) / width) ** 2)) * (0.6 + 0.4 * np.cos(9.0 * angle + 2.1) * np.cos(2.0 * angle))
-    inside = 0.35 * max(1.0 - 1.6 * age, 0.0) * _smooth(1.0, 0.9, radius / edge)
-    water = (rim + inside) * (1.0 - _smooth(0.15, 0.75, age))
-    return _picture(water, 0.35 + 0.65 * rim)
+    rng = np.random.default_rng(22)
+    threads = 13
+    at = (np.arange(threads) + rng.uniform(-0.4, 0.4, threads)) * (2.0 * math.pi / threads)
+    reach = 0.62 + rng.uniform(0.1, 0.34, threads) * (0.5 + 0.5 * age)
+    force = rng.uniform(0.3, 1.0, threads)
+    edge = 0.58 + 0.03 * np.cos(5.0 * angle + 0.4) + 0.03 * np.cos(8.0 * angle + 2.1)
+    aside = _between(angle.ravel(), at).reshape(SIZE, SIZE, threads)
+    pull = (np.exp(-((aside * 3.2) ** 2)) * force).max(axis=2)
+    rim = np.exp(-(((radius - edge) / (0.085 - 0.04 * age)) ** 2)) * (0.15 + 0.85 * pull)
+    away = radius[..., None]
+    along = _smooth(0.5, 0.6, away) * _smooth(0.0, 0.04, reach - away)
+    line = np.exp(-((aside * away / 0.022) ** 2)) * along * np.cos(np.clip(aside, -1.5, 1.5))
+    bead = np.exp(-((aside * away) ** 2 + (away - reach) ** 2) / 0.04**2)
+    thrown = ((0.5 * line * (1.0 - age) + bead) * force).max(axis=2)
+    inside = 0.3 * max(1.0 - 1.8 * age, 0.0) * _smooth(1.0, 0.9, radius / edge)
+    water = (rim + thrown + inside) * (1.0 - _smooth(0.2, 0.75, age))
+    return _picture(water, 0.35 + 0.5 * rim + 0.6 * thrown)
 
 
 def _ring(age: float) -> NDArray[np.uint8]:

@@ -24,7 +24,7 @@ DENSITY = 1000.0  # kg/m3
 FIRST = 0.25  # share of its radius that a crown begins with
 SMALLEST, GREATEST = 0.3, 2.5  # factors on the size, of the least of the splashes and the most
 RESPONSE = 0.2  # s: a droplet of half a millimetre takes on the air's speed
-MOST = 6  # droplets of one splash
+MOST = 5  # droplets of one splash
 LONGEST = 0.5  # s that a droplet is seen at most
 
 

@@ -1,28 +1,113 @@
-// The crown: a quad that stands along the surface's normal and turns about it towards the camera.
+// A splash: the film that spreads flat over the surface, the crown on it, and droplets on parabolas
+// that end where they hit again. Film and droplets are only there close by.
 layout(points) in;
-layout(triangle_strip, max_vertices = 4) out;
+layout(triangle_strip, max_vertices = 28) out;
 #include "splash.glsl"
 #include "splash_quad.glsl"
+#include "shelter.glsl"
 
-void main()
+in vec3 vs_throw[];
+
+// How high p lies over what the map knows of, m.
+float height_over(vec3 p)
 {
-    vec4 form = vs_form[0];
-    if (form.x <= 0.0) return;
-    vec3 up = vs_normal[0];
+    return -below_surface(shelter_place(p));
+}
+
+void film(vec4 form, vec3 first, vec3 second, vec4 color)
+{
+    bool wet = form.z > 0.5;
+    if (form.y >= (wet ? CROWN_LIFE : FILM_LIFE)) return;
+    float turn = 40.0 * form.w;
+    float reach = form.x * growth(form.y) * (wet ? 2.6 : 2.0);
+    vec3 a = (first * cos(turn) + second * sin(turn)) * reach;
+    vec3 b = (second * cos(turn) - first * sin(turn)) * reach;
+    // The more so, the less there is to see of the crown.
+    float above = abs(dot(normalize(vs_at[0] - camera_position.xyz), vs_normal[0]));
+    color.a *= 0.35 + 0.4 * smoothstep(0.5, 0.9, above);
+    quad(vs_at[0], a, b, layer_at(wet ? RING : FILM, form.y), color);
+}
+
+// A droplet as a streak of its way during the exposure.
+void droplet(vec3 p, vec3 velocity, float size, vec4 color)
+{
+    vec4 b = lifted(p);
+    vec4 a = lifted(p - velocity * camera_velocity.w * 0.35);
+    if (min(a.w, b.w) < 0.2) return;
+    vec2 along = (b.xy / b.w - a.xy / a.w) * view_size.xy;
+    float span = length(along);
+    along = span > 1e-3 ? along / span : vec2(0.0, 1.0);
+    float pixels = size * camera_position.w / b.w;
+    color.a *= min(pixels / 1.5, 1.0);
+    float wide = max(pixels, 1.5);
+    vec2 across = vec2(-along.y, along.x) * wide / view_size.xy;
+    vec2 longer = along * wide / view_size.xy;
+    corner(vec4(a.xy - (longer + across) * a.w, a.zw), vec2(0.0, 0.0), BEAD, color);
+    corner(vec4(a.xy - (longer - across) * a.w, a.zw), vec2(1.0, 0.0), BEAD, color);
+    corner(vec4(b.xy + (longer - across) * b.w, b.zw), vec2(0.0, 1.0), BEAD, color);
+    corner(vec4(b.xy + (longer + across) * b.w, b.zw), vec2(1.0, 1.0), BEAD, color);
+    EndPrimitive();
+}
+
+// A quad that stands along the normal n and turns about it towards the camera.
+void crown(vec4 form, vec3 n, vec4 color)
+{
+    vec3 up = n;
     vec3 ray = vs_at[0] - camera_position.xyz;
     vec3 side = cross(ray, up);
     float across = length(side);
-    if (across < 1e-4) return;
+    if (across < 1e-4 || color.a < FAINTEST) return;
     uint h = hash_word(floatBitsToUint(form.w));
     float variant = float(h & 1u);
     // No two alike: mirrored or not, leaning a little, taller or lower.
     up = normalize(up + side / across * (0.35 * hash_unit(h) - 0.175));
     side = cross(ray, up);
     side *= ((h & 2u) != 0u ? 1.0 : -1.0) / length(side);
-    float pixel = vs_at[0] == camera_position.xyz ? 0.0 : length(ray) / camera_position.w;
+    float pixel = length(ray) / camera_position.w;
     float reach = max(form.x * growth(form.y) * 1.33, pixel);
     float tall = reach * (0.8 + 0.5 * hash_unit(h ^ 0x9E3779B9u));
     vec3 middle = vs_at[0] + up * (tall * (TALL - BELOW));
     float kind = (form.z > 0.5 ? BURST : CROWN) + variant;
-    quad(middle, side * reach, up * (tall * TALL), layer_at(kind, form.y), vs_color[0]);
+    quad(middle, side * reach, up * (tall * TALL), layer_at(kind, form.y), color);
+}
+
+void droplets(float seed, vec3 n, vec3 first, vec3 second, vec4 color)
+{
+    float age = vs_throw[0].y;
+    vec3 pull = splash_pull.xyz;
+    uint id = floatBitsToUint(seed);
+    float number = floor(splash_spray.y + hash_unit(id ^ 0x27D4EB2Fu));
+    float fall = dot(n, pull);
+    color.a *= 1.0 - smoothstep(0.75 * LONGEST, LONGEST, age);
+    for (int k = 0; k < MOST; ++k) {
+        if (float(k) >= number || age >= LONGEST) break;
+        uint h = hash_word(id + 0x9E3779B9u * uint(k + 1));
+        float turn = (float(k) + 0.8 * hash_unit(h)) * (6.28318531 / number) + 40.0 * seed;
+        float tilt = splash_spray.w * (0.35 + 0.65 * hash_unit(h ^ 0x85EBCA6Bu));
+        float pace = vs_throw[0].x * (0.5 + 0.5 * hash_unit(h ^ 0xC2B2AE35u));
+        vec3 across = first * cos(turn) + second * sin(turn);
+        vec3 v = (n * cos(tilt) + across * sin(tilt)) * pace;
+        float back = fall < 0.0 ? min(-2.0 * dot(n, v) / min(fall, -1e-6), LONGEST) : LONGEST;
+        if (age >= back) {
+            // Over the edge of what was hit it falls on; else it has landed.
+            vec3 landed = vs_at[0] + v * back + 0.5 * pull * (back * back);
+            if (height_over(landed) < 0.08) continue;
+        }
+        vec3 p = vs_at[0] + v * age + 0.5 * pull * (age * age);
+        if (height_over(p) < -0.03) continue;
+        droplet(p, v + pull * age, splash_grain.x, color);
+    }
+}
+
+void main()
+{
+    vec4 form = vs_form[0];
+    if (form.x <= 0.0) return;
+    vec3 n = vs_normal[0];
+    vec3 first = normalize(vec3(n.y, -n.x, 0.0));
+    vec3 second = cross(n, first);
+    vec4 near = vec4(vs_color[0].rgb, vs_throw[0].z);
+    if (near.a > FAINTEST) film(form, first, second, near);
+    crown(form, n, vs_color[0]);
+    if (near.a > FAINTEST) droplets(form.w, n, first, second, near);
 }

@@ -7,7 +7,11 @@ const float SMALLEST = 0.3;  // factor on its size that the least of the splashe
 const float GREATEST = 2.5;  // the same of the greatest
 const float FIRST = 0.25;    // share of its radius that a crown begins with
 const float LONGEST = 0.5;   // s that a droplet is seen at most
-const int MOST = 6;          // droplets of one splash
+const int MOST = 5;          // droplets of one splash
+const float FAINTEST = 0.004;   // opacity below which nothing is drawn
+// Shares of the life from which on the texture of a crown and of a film is empty.
+const float CROWN_LIFE = 0.93;
+const float FILM_LIFE = 0.69;
 
 // Greatest radius of a drop's water, D We^(1/4) / 2, in m, as it is drawn. D in mm, v in m/s.
 float bounded_radius(float diameter, float speed)
