@@ -15,10 +15,12 @@ from weather_ecs.gpu.depth import DepthCopy
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.heightmap import Heightmap, fall_speed_of
+from weather_ecs.gpu.impact_count import ImpactCount
 from weather_ecs.gpu.occluder_meshes import OccluderMeshes
 from weather_ecs.gpu.rain_blocks import RAIN_VIEW, SHELTER
 from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass
 from weather_ecs.gpu.shader_loader import ShaderLoader
+from weather_ecs.gpu.splash_pass import SplashPass
 from weather_ecs.gpu.timer import GpuTimer, PrimitiveCounter
 from weather_ecs.gpu.veil_pass import VeilPass
 from weather_ecs.gpu.view_block import fill_view
@@ -68,6 +70,8 @@ class Renderer:
         ctx, gl = self._ctx, self._gl
         self._shaders = ShaderLoader(ctx, gl=gl)
         self._rain = RainPass(ctx, self._shaders, backend=self.backend, seed=seed)
+        self._splash = SplashPass(ctx, gl, self._shaders, self._rain)
+        self._impacts = ImpactCount(ctx, gl, self._shaders, self._rain)
         self._veil = VeilPass(ctx, self._shaders)
         self._view_block = BlockBuffer(ctx, RAIN_VIEW)
         self._shelter_block = BlockBuffer(ctx, SHELTER)
@@ -106,14 +110,19 @@ class Renderer:
             # at once, and a software driver then draws the frame in pieces.
             self.stats["gpu_ms"] = self._timer.latest_ms or 0.0
             self.stats["drops_drawn"] = self._counter.latest or 0 if view.containers else 0
+            self.stats["splashes"] = self._splash.drawn if view.frame.splash else 0
+            self.stats["impacts"] = self._impacts.latest if view.frame.occluders else 0
             self._timer.begin()
             fill_view(self._view_block, view, viewport)
             self._view_block.upload()
             self._view_block.bind()
             sheltered = self._capture(view, settings)
             self.stats["drops_moved"] = self._rain.update(view, sheltered)
+            if sheltered:
+                self._impacts.count(view)
             guard.bind_framebuffer()
             self._draw_veils(view)
+            self._draw_splashes(view, sheltered)
             self._draw_drops(view)
             self._timer.end()
 
@@ -151,6 +160,14 @@ class Renderer:
         self._veil.draw(view, depth)
         ctx.cull_face = "back"
 
+    def _draw_splashes(self, view: ViewData, sheltered: bool) -> None:
+        look = view.frame.splash
+        if look is None or not sheltered:
+            return
+        self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
+        self._gl.glDepthMask(0)
+        self._splash.draw(view, look)
+
     def _draw_drops(self, view: ViewData) -> None:
         if not view.containers:
             return
@@ -174,8 +191,8 @@ class Renderer:
         self._released = True
         things: list[Releasable] = [
             self._counter, self._timer, *self._maps.values(), self._meshes, self._no_depth,
-            self._depth, self._shelter_block, self._view_block, self._veil, self._rain,
-            self._shaders,
+            self._depth, self._shelter_block, self._view_block, self._veil, self._impacts,
+            self._splash, self._rain, self._shaders,
         ]  # fmt: skip
         with self._guard:
             for thing in things:
