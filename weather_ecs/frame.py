@@ -114,6 +114,24 @@ class RippleData:
     draw: bool
 
 
+@dataclass(frozen=True, slots=True)
+class HeightmapLook:
+    """How the map of what rain hits is made; see `components.CollisionHeightmap`."""
+
+    resolution: float = 1.0  # factor on the texels a side that the quality gives
+    extent: float = 1.25  # half of its side over the container's reach
+
+
+@dataclass(frozen=True, slots=True)
+class GaugeData:
+    """A level opening that rain falls into; see `components.RainGauge`."""
+
+    key: int  # stable for the life of the gauge; only ever compared
+    position: tuple[float, float, float]  # m
+    area: float  # m2
+    window: float  # s
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class WetTileData:
     """Wet cells of one size, in tiles of 8 by 8."""
@@ -149,6 +167,8 @@ class FrameData:
     splash: SplashLook | None = None  # None: no splashes
     ripples: tuple[RippleData, ...] = ()
     wetness: WetnessData | None = None
+    heightmap: HeightmapLook = field(default_factory=HeightmapLook)
+    gauges: tuple[GaugeData, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,3 +211,15 @@ class ViewData:
     dt: float  # s, weather time since this observer's last view
     containers: tuple[ContainerData, ...]
     veils: tuple[VeilData, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GaugeReading:
+    """What one gauge has measured in one frame; comes back from the GPU some frames later."""
+
+    key: int  # of the gauge
+    time: float  # s, the weather's clock at the frame's end
+    seconds: float  # that the frame lasted
+    exposure: float  # 0 to 1, share of the opening that rain reaches
+    # By area: (key, mm/h times m2 caught, m2 that were watched, m2 that could have been).
+    areas: tuple[tuple[int, float, float, float], ...]

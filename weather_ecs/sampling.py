@@ -71,6 +71,14 @@ class SampleField:
         """mm/h at a point in the open: the areas' rates, each falling off over its soft edge."""
         return self._rain.rate(x, y, z)
 
+    def rain_rates(self, x: float, y: float, z: float) -> dict[int, float]:
+        """The same by area."""
+        return self._rain.rates(x, y, z)
+
+    def sheltered(self, x: float, y: float, z: float) -> bool:
+        """Whether something overhead keeps the rain off a point."""
+        return self._shelter is not None and self._shelter.covers(x, y, z)
+
     def light(self, x: float, y: float, z: float) -> float:
         """Luminance of day light and lamps; a lamp's falls as (1 - (d / reach)^2)^2."""
         total = self._day_light
@@ -85,7 +93,7 @@ class SampleField:
         """Everything at a point."""
         rate = self._rain.rate(x, y, z)
         lost = _CLEAR + _RAIN * rate**_RAIN_POWER
-        sheltered = self._shelter is not None and self._shelter.covers(x, y, z)
+        sheltered = self.sheltered(x, y, z)
         wetness = 0.0
         if self._ground is not None and not sheltered:
             wetness = self._ground.at(x, y, z, rate, self._time)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import esper
 
 from weather_ecs import snapshot
-from weather_ecs.components import Observer
+from weather_ecs.components import Observer, RainGauge, RippleSurface
 from weather_ecs.components._base import FAR, integer, vector
 from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, WeatherError
 from weather_ecs.frame import FrameData
@@ -22,6 +22,7 @@ from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, setting
 from weather_ecs.sampling import Sample, SampleField
 from weather_ecs.stats import Stats
 from weather_ecs.systems import ExtractSystem, WeatherProcessor, WeatherState, scheduled
+from weather_ecs.systems.gauge import GaugeBoard
 from weather_ecs.systems.queries import in_world, living
 from weather_ecs.systems.rain_view import RainView
 from weather_ecs.systems.shelter import ShelterIndex
@@ -80,6 +81,7 @@ class Weather:
         self._keys = ObserverKeys()
         self._shelter = ShelterIndex()
         self._field: SampleField | None = None
+        self._gauges = GaugeBoard()
         self._field_frame: FrameData | None = None
         self._cost = FrameCost()
         step, frame = scheduled("step"), scheduled("frame")
@@ -213,6 +215,8 @@ class Weather:
             if self._window.context is None:
                 raise ContextError("the window is closed")
         with _current(self._window):
+        if frame.gauges:
+            self._gauges.take(frame.gauges, renderer.take_readings())
             context = obtain(self._context)
             return Renderer(context, backend=self._asked_backend, seed=self._state.seed)
 
@@ -287,6 +291,10 @@ class Weather:
             self._field_frame = frame
         return self._field
 
+        if esper.get_component(RainGauge):
+            field = self._sample_field()
+            frame = self._frame()
+            self._gauges.process(frame.gauges, self._extract.gauges, field, frame.time)
     def _refresh_stats(self) -> None:
         x, y, z = self._observer or self._first_observer()
         field = self._sample_field()

@@ -33,6 +33,7 @@ __all__ = [
 
 # Beyond this azimuth no half cylinder that follows the view within its margin can hold it.
 _WHOLE_FROM = math.radians(80.0)
+_PLASTIC = 1.3247179572447460  # root of x^3 = x + 1
 # The share of the near container that lies below the observer's eye.
 _BELOW = 0.3
 # Far fit: how fast a fit may change, per second, so that turning the head does not shift the rain.
@@ -83,14 +84,20 @@ def births(n: int, rng: np.random.Generator) -> NDArray[np.float32]:
     The first two are the original position in the container's own axes, as shares of its reach;
     their distances follow Eq. 2. The own reach is the radius of the half disc, as a share, that
     the drop keeps to: Eq. 2 is the even mixture of such discs, each filled evenly (see `lod`).
+
+    Drops keep reach and size for good. Were these drawn one by one, the few large drops that carry
+    the water would by chance be too many or too few at some distance, for ever. So the pairs
+    follow the R2 sequence (Roberts 2018), whose first n points, for any n, fill the square evenly.
     """
-    d = radial_positions(n, rng)
+    k = np.arange(n) + 0.5
+    s = 1.0 - (rng.random() + k / _PLASTIC) % 1.0  # in (0, 1]
+    d = s * np.sqrt(rng.random(n))
     angle = (rng.random(n) - 0.5) * math.pi
     record = np.empty((n, 4), np.float32)
     record[:, 0] = d * np.cos(angle)
     record[:, 1] = d * np.sin(angle)
-    record[:, 2] = own_reach(d, rng.random(n))
-    record[:, 3] = rng.random(n)
+    record[:, 2] = s
+    record[:, 3] = (rng.random() + k / _PLASTIC**2) % 1.0
     return record
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from operator import is_
 from typing import Any
 
@@ -11,24 +11,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.components import (
+    CollisionHeightmap,
     PointLight,
     RainArea,
     RainContainer,
+    RainGauge,
     RippleSurface,
     SplashEmitter,
     Sun,
     Wind,
 )
+from weather_ecs.components.collision_heightmap import ALL_LAYERS
 from weather_ecs.frame import (
     AREA_DTYPE,
     LIGHT_DTYPE,
     DropLook,
     FrameData,
+    GaugeData,
+    HeightmapLook,
     OccluderData,
     SkyLight,
     SplashLook,
     empty,
 )
+from weather_ecs.systems.gauge import GaugeList
 from weather_ecs.systems.occluders import OccluderList
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.rain_area import area_rows, drift_velocity
@@ -36,7 +42,16 @@ from weather_ecs.systems.ripples import RippleList
 from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.wind import total_wind
 
-_KINDS = (RainArea, Wind, PointLight, Sun, RainContainer, SplashEmitter, RippleSurface)
+_KINDS = (
+    RainArea,
+    Wind,
+    PointLight,
+    Sun,
+    RainContainer,
+    SplashEmitter,
+    RippleSurface,
+    CollisionHeightmap,
+)
 _LOOK = tuple(item.name for item in fields(DropLook))
 _SPLASH = tuple(item.name for item in fields(SplashLook))
 _NO_AREAS = empty(AREA_DTYPE)
@@ -62,7 +77,19 @@ class ExtractSystem:
         self._splash: SplashLook | None = None
         self._occluders = OccluderList()
         self._ripples = RippleList()
+        self._heightmap, self._layers = HeightmapLook(), ALL_LAYERS
+        self._gauges = GaugeList()
         self._time = -1.0
+
+    @property
+    def gauges(self) -> dict[int, RainGauge]:
+        """The gauges of the last frame by key, for their readings."""
+        return self._gauges.gauges
+
+    @property
+    def ripples(self) -> RippleList:
+        """The water surfaces as they were taken over."""
+        return self._ripples
 
     def run(self, state: WeatherState) -> None:
         """A new frame is due."""
@@ -81,14 +108,22 @@ class ExtractSystem:
             self._rebuild(state)
             self._lists, self._revisions = lists, revisions
             self._frame = None
-        occluders = self._ripples.with_faces(self._occluders.collect())
+        occluders = self._ripples.with_faces(self._occluders.collect(self._layers))
+        gauges = self._gauges.collect()
         frame, time = self._frame, state.clock.time
         if frame is None or time != self._time or occluders is not frame.occluders:
             self._time = time
-            self._frame = frame = self._at_time(state, occluders)
+            self._frame = frame = self._at_time(state, occluders, gauges)
+        elif gauges is not frame.gauges:
+            self._frame = frame = replace(frame, gauges=gauges)
         return frame
 
-    def _at_time(self, state: WeatherState, occluders: tuple[OccluderData, ...]) -> FrameData:
+    def _at_time(
+        self,
+        state: WeatherState,
+        occluders: tuple[OccluderData, ...],
+        gauges: tuple[GaugeData, ...],
+    ) -> FrameData:
         """The parts at the clock's time: moving areas are carried on by the remainder."""
         areas, clock = self._still, state.clock
         if self._velocity is not None and clock.remainder > 0.0:
@@ -96,8 +131,8 @@ class ExtractSystem:
             areas["center"] += self._velocity * clock.remainder
             areas.setflags(write=False)
         shapes = (occluders, self._splash, self._ripples.surfaces)
-        wet = state.wet_ground.data()
-        return FrameData(clock.time, clock.steps, areas, *self._parts, *shapes, wet)
+        rest = (state.wet_ground.data(), self._heightmap, gauges)
+        return FrameData(clock.time, clock.steps, areas, *self._parts, *shapes, *rest)
 
     def _rebuild(self, state: WeatherState) -> None:
         wind = total_wind(state)
@@ -112,6 +147,7 @@ class ExtractSystem:
         self._parts = (lights, wind, _sky(state), _look(state))
         self._splash = _splash(state)
         self._ripples.collect(state)
+        self._heightmap, self._layers = _heightmap(state)
         self._entities = [
             pair[0]
             for kind in _KINDS
@@ -144,3 +180,10 @@ def _splash(state: WeatherState) -> SplashLook | None:
     for _, emitter in alive(SplashEmitter, state.uids):
         return SplashLook(*[getattr(emitter, name) for name in _SPLASH])
     return None
+
+
+def _heightmap(state: WeatherState) -> tuple[HeightmapLook, int]:
+    """The look, and the layers that stop the rain."""
+    for _, it in alive(CollisionHeightmap, state.uids):
+        return HeightmapLook(it.resolution, it.extent), it.layers
+    return HeightmapLook(), ALL_LAYERS

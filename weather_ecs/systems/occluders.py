@@ -8,6 +8,7 @@ from weakref import WeakKeyDictionary
 import esper
 
 from weather_ecs.components import Occluder
+from weather_ecs.components.collision_heightmap import ALL_LAYERS
 from weather_ecs.frame import OccluderData
 from weather_ecs.systems.queries import living
 
@@ -20,14 +21,16 @@ class OccluderList:
         self._next_key = 0
         self._list: list[Any] | None = None
         self._revision = -1
+        self._layers = ALL_LAYERS
         self._data: tuple[OccluderData, ...] = ()
 
-    def collect(self) -> tuple[OccluderData, ...]:
-        """The living occluders; the same tuple as before where nothing has changed."""
+    def collect(self, layers: int = ALL_LAYERS) -> tuple[OccluderData, ...]:
+        """The living occluders on any of some layers; the same tuple where nothing has changed."""
         pairs, revision = esper.get_component(Occluder), Occluder.revision()
-        if pairs is not self._list or revision != self._revision:
-            self._list, self._revision = pairs, revision
-            self._data = tuple([self._of(occluder) for _, occluder in living(Occluder)])
+        if pairs is not self._list or revision != self._revision or layers != self._layers:
+            self._list, self._revision, self._layers = pairs, revision, layers
+            hit = [occluder for _, occluder in living(Occluder) if occluder.layers & layers]
+            self._data = tuple([self._of(occluder) for occluder in hit])
         return self._data
 
     def _of(self, occluder: Occluder) -> OccluderData:

@@ -1,0 +1,207 @@
+"""Rain gauges on the GPU: counts the drops over every gauge, and reads the counts some frames late.
+
+One texel holds what one container says of one gauge. A gauge's opening is small against the drawn
+drops' distances, so drops are counted in a catch around it, wide enough for a steady reading, and
+related to the part of the catch that is open to the rain; what the area's edge takes off at the
+gauge itself comes in as a factor, and what covers the opening as its exposure. A drop stands for
+`weight` real ones of the water that drops carry on average (`physics.gauge.landing_water`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import moderngl
+import numpy as np
+
+from weather_ecs.frame import ContainerData, GaugeData, GaugeReading, ViewData
+from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass, drops_used
+from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.physics.footprint import fall_speed_of
+from weather_ecs.physics.gauge import catch_radius, landing_water
+from weather_ecs.physics.rain_field import RainField
+
+MAX_GAUGES = 32  # counted; the others read the areas' rates
+MAX_ROWS = 32  # containers
+CATCH, OWN = 128, 32  # points; also in gauge_area.vert
+SLAB = 0.5  # m; also in gauge.glsl
+RING = 4  # frames between counting and reading; half of it until the copy is asked for
+_SLOWEST = 2.0  # m/s, of the smallest drops
+
+GAUGE = UniformBlock(
+    "Gauge",
+    ("gauge_place", "vec4", MAX_GAUGES),  # m, of the opening's middle; radius of the catch
+    ("gauge_shape", "vec4", MAX_GAUGES),  # m, opening's radius; share of the area's rain there
+    ("gauge_scale", "vec2"),  # of a texel in clip space
+    ("gauge_row", "float"),
+    ("gauge_water", "float"),  # mm3, of a drop that lands, on average
+    ("gauge_turn", "float"),  # rad, another one every time
+    ("gauge_margin", "float"),  # share of the reach, of the border that the wind blows over
+)
+AREA = ProgramKey(vertex="gauge_area.vert", fragment="gauge.frag")
+DROPS = ProgramKey(vertex="gauge_drops.vert", fragment="gauge.frag")
+
+
+@dataclass(slots=True)
+class _Counted:
+    """One frame's counts on their way back."""
+
+    target: moderngl.Framebuffer
+    texture: moderngl.Texture
+    copy: moderngl.Buffer
+    gauges: tuple[GaugeData, ...] = ()
+    rows: tuple[int, ...] = ()  # keys of the areas
+    catches: tuple[tuple[float, ...], ...] = ()  # m2, by row and gauge
+    time: float = 0.0
+    seconds: float = 0.0
+
+
+class GaugePass:
+    """Counts for the gauges of a view; makes nothing on the GPU before the first gauge."""
+
+    def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader, rain: RainPass) -> None:
+        self._ctx = ctx
+        self._shaders = shaders
+        self._rain = rain
+        self._ring: list[_Counted] = []
+        self._count = 0
+        self._readings: list[GaugeReading] = []
+
+    def take(self) -> list[GaugeReading]:
+        """What has come back since the last call."""
+        readings, self._readings = self._readings, []
+        return readings
+
+    def update(self, view: ViewData, sheltered: bool) -> None:
+        """Count the drops as they are now; after the rain's update, and with its blocks bound.
+
+        Changes framebuffer, blending and the block RainDraw: the caller restores.
+        """
+        gauges = view.frame.gauges[:MAX_GAUGES]
+        if not gauges or not view.containers or view.dt <= 0.0:
+            return
+        if not self._ring:
+            self._make()
+        slot = self._ring[self._count % RING]
+        self._collect(slot)
+        older = self._ring[(self._count - RING // 2) % RING]
+        if older.gauges:
+            older.texture.read_into(older.copy)
+        containers = view.containers[:MAX_ROWS]
+        slot.gauges, slot.time, slot.seconds = gauges, view.frame.time, view.dt
+        slot.rows = tuple([c.key >> 1 for c in containers])
+        slot.target.use()
+        slot.target.clear()
+        self._ctx.enable_only(moderngl.BLEND)
+        self._ctx.blend_func = moderngl.ONE, moderngl.ONE
+        catches = [
+            self._draw(row, container, gauges, view, sheltered)
+            for row, container in enumerate(containers)
+        ]
+        self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
+        slot.catches = tuple(catches)
+        self._count += 1
+
+    def _make(self) -> None:
+        self._block = BlockBuffer(self._ctx, GAUGE)
+        self._areas, self._names = [], []
+        for defines in ((), ("SHELTER",)):
+            area = self._shaders.program(replace(AREA, defines=defines))
+            drops = self._shaders.program(replace(DROPS, defines=defines))
+            for program in (area, drops):
+                if "shelter_map" in program:
+                    program["shelter_map"] = SHELTER_UNIT
+            self._areas.append(self._ctx.vertex_array(area, []))
+            self._names.append(" ".join(("gauge", *defines)))
+            self._rain.add_reader(self._names[-1], drops)
+        for _ in range(RING):
+            texture = self._ctx.texture((MAX_GAUGES, MAX_ROWS), 4, dtype="f4")
+            texture.filter = moderngl.NEAREST, moderngl.NEAREST
+            target = self._ctx.framebuffer([texture])
+            copy = self._ctx.buffer(reserve=MAX_GAUGES * MAX_ROWS * 16)
+            self._ring.append(_Counted(target, texture, copy))
+
+    def _draw(
+        self,
+        row: int,
+        container: ContainerData,
+        gauges: tuple[GaugeData, ...],
+        view: ViewData,
+        sheltered: bool,
+    ) -> tuple[float, ...]:
+        radii = self._fill(row, container, gauges, view)
+        self._rain.fill_container(container, view)
+        self._areas[sheltered].render(moderngl.POINTS, CATCH + OWN, instances=len(gauges))
+        drops = self._rain.sets(view.key).get(container.key)
+        if drops is not None and drops.alive:
+            count = min(drops_used(container, drops), drops.alive)
+            array = drops.array(self._names[sheltered])
+            array.render(moderngl.POINTS, count, instances=len(gauges))
+        return tuple([math.pi * radius * radius for radius in radii])
+
+    def _fill(
+        self,
+        row: int,
+        container: ContainerData,
+        gauges: tuple[GaugeData, ...],
+        view: ViewData,
+    ) -> list[float]:
+        """Upload the block; returns the radii of the catches."""
+        areas = view.frame.areas
+        area = areas[areas["key"] == container.key >> 1]
+        field = RainField(area)
+        full = float(area["rain_rate"][0])
+        speed = fall_speed_of(full)
+        radii = [_catch_radius(gauge, container, speed) for gauge in gauges]
+        for k, (gauge, radius) in enumerate(zip(gauges, radii, strict=True)):
+            share = field.rate(*gauge.position) / full
+            self._block["gauge_place"][k] = (*gauge.position, radius)
+            self._block["gauge_shape"][k] = (math.sqrt(gauge.area / math.pi), share, 0.0, 0.0)
+        wind = math.hypot(view.frame.wind[0], view.frame.wind[2])
+        data = self._block.data
+        data["gauge_scale"] = (2.0 / MAX_GAUGES, 2.0 / MAX_ROWS)
+        data["gauge_row"] = row
+        data["gauge_water"] = landing_water(full)
+        data["gauge_turn"] = 0.7548777 * self._count % 1.0 * 2.0 * math.pi
+        data["gauge_margin"] = SLAB * wind / _SLOWEST / min(container.shape[:2])
+        self._block.upload()
+        self._block.bind()
+        return radii
+
+    def _collect(self, slot: _Counted) -> None:
+        """What the slot has counted, a ring's length ago."""
+        if not slot.gauges:
+            return
+        raw = np.frombuffer(slot.copy.read(), np.float32).reshape(MAX_ROWS, MAX_GAUGES, 4)
+        sums = raw[: len(slot.rows), : len(slot.gauges)].astype(float)
+        for k, gauge in enumerate(slot.gauges):
+            exposure = min(float(sums[0, k, 2]), 1.0)
+            areas = tuple(
+                [
+                    (key, *sums[row, k, :2].tolist(), slot.catches[row][k])
+                    for row, key in enumerate(slot.rows)
+                ]
+            )
+            reading = GaugeReading(gauge.key, slot.time, slot.seconds, exposure, areas)
+            self._readings.append(reading)
+
+    def release(self) -> None:
+        """Give everything back; twice does no harm."""
+        for slot in self._ring:
+            for thing in (slot.copy, slot.target, slot.texture):
+                thing.release()
+        if self._ring:
+            for array in self._areas:
+                array.release()
+            self._block.release()
+        self._ring.clear()
+
+
+def _catch_radius(gauge: GaugeData, container: ContainerData, fall_speed: float) -> float:
+    (cx, cz, c, s), (forward, lateral, _, height) = container.axis, container.shape
+    x, z = gauge.position[0] - cx, gauge.position[2] - cz
+    distance = math.hypot((x * c - z * s) / forward, (x * s + z * c) / lateral)
+    opening, reach = math.sqrt(gauge.area / math.pi), (forward, lateral)
+    return catch_radius(opening, gauge.window, distance, reach, height, container.count, fall_speed)

@@ -1,0 +1,39 @@
+// Rain gauges: what a container's drops say of the rain through their planes. place = the opening's
+// middle and the radius of the catch, shape = the opening's own radius, the share of the area's rain
+// that falls there, 0, 0. Needs the block RainDraw of the container.
+#include "container.glsl"
+#include <block:RainDraw>
+#include <block:Gauge>
+#ifdef SHELTER
+#include "shelter.glsl"
+#endif
+
+// m; drops are counted within this height above the plane.
+const float GAUGE_SLAB = 0.5;
+
+// The texel of one gauge and one container, in clip space.
+vec4 gauge_texel(int gauge)
+{
+    return vec4((vec2(gauge, gauge_row) + 0.5) * gauge_scale - 1.0, 0.0, 1.0);
+}
+
+// Whether rain reaches a place of the plane.
+bool gauge_open(vec3 p)
+{
+#ifdef SHELTER
+    vec3 m = shelter_place(p);
+    return !in_shelter_map(m) || below_surface(m) < 0.05;
+#else
+    return true;
+#endif
+}
+
+// Whether the container's drops tell of a place of the plane: not at its rim, where few of them
+// stand for many, nor so close to its border that the wind blows them in from outside.
+bool gauge_watched(vec3 p)
+{
+    vec2 q = to_container(p.xz, container_axis, container_shape.xy);
+    float rise = p.y - container_shape.z;
+    return q.x > gauge_margin && length(q) < 0.8 - gauge_margin
+        && rise > 0.0 && rise + GAUGE_SLAB < container_shape.w;
+}

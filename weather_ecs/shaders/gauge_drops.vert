@@ -1,0 +1,34 @@
+// One drop over one gauge (an instance): the water it carries through the gauge's plane, as mm/h over
+// the catch's m2. A drop counts while it is within a slab above the plane, for its speed over the
+// slab's height, and where it will cross the plane; so a crossing is spread over some frames.
+// Once with the water that drops carry on average, once with its own (for tests).
+#include "drop_law.glsl"
+#include "drop_weight.glsl"
+#include "landed.glsl"
+#include "gauge.glsl"
+
+in vec3 in_position;
+in vec3 in_velocity;
+in vec4 in_birth;
+
+flat out vec4 vs_sum;
+
+void main()
+{
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    vs_sum = vec4(0.0);
+    vec4 gauge = gauge_place[gl_InstanceID];
+    vec3 v = in_velocity;
+    float rise = in_position.y - gauge.y;
+    if (has_landed(v) || v.y > -0.01 || rise < 0.0 || rise >= GAUGE_SLAB) return;
+    vec3 foot = vec3(in_position.xz - v.xz * (rise / v.y), gauge.y).xzy;
+    vec2 away = foot.xz - gauge.xz;
+    if (dot(away, away) > gauge.w * gauge.w || !gauge_watched(foot) || !gauge_open(foot)) return;
+    float d;
+    float weight = drop_load_at(in_position, in_birth.z, gl_VertexID, d);
+    float number = weight * -v.y / GAUGE_SLAB * gauge_shape[gl_InstanceID].y;  // real drops a second
+    float diameter = drop_diameter(in_birth.w, drop_law);
+    float own = 0.5235988 * diameter * diameter * diameter;  // mm3
+    vs_sum = vec4(number * gauge_water * 3600e-6, 0.0, 0.0, number * own * 3600e-6);
+    gl_Position = gauge_texel(gl_InstanceID);
+}
