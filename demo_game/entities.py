@@ -10,7 +10,15 @@ import esper
 from demo_game.mood import Mood
 from demo_game.place import Place
 from demo_game.skies import Light, shade
-from weather_ecs.components import Occluder, PointLight, RainArea, RainContainer, Sun, Wind
+from weather_ecs.components import (
+    Occluder,
+    PointLight,
+    RainArea,
+    RainContainer,
+    SplashEmitter,
+    Sun,
+    Wind,
+)
 
 CENTER = (0.0, -70.0)  # (x, z), m, of the rain area that the walk leads through
 RADII = (70.0, 45.0)  # m
@@ -41,7 +49,8 @@ class Entities:
             drift=1.0,
         )
         self._wind, self._sun = Wind(), Sun()
-        for component in (self.area, self.shower, RainContainer(), self._wind, self._sun):
+        looks = RainContainer(), SplashEmitter()
+        for component in (self.area, self.shower, *looks, self._wind, self._sun):
             esper.create_entity(component)
         self._lamps = []
         for position, color, reach in place.lamps:
