@@ -80,8 +80,8 @@ class Weather:
         self._observer: tuple[float, float, float] | None = None  # m, of the last draw
         self._keys = ObserverKeys()
         self._shelter = ShelterIndex()
-        self._field: SampleField | None = None
         self._gauges = GaugeBoard()
+        self._field: SampleField | None = None
         self._field_frame: FrameData | None = None
         self._cost = FrameCost()
         step, frame = scheduled("step"), scheduled("frame")
@@ -198,6 +198,8 @@ class Weather:
         settings = self._auto.settings() if self.quality == "auto" else self._settings
         renderer = self._ready_renderer()
         renderer.draw(self._view.view(frame, camera, self._keys.key(observer), settings), settings)
+        if frame.gauges:
+            self._gauges.take(frame.gauges, renderer.take_readings())
         self._observer = camera.position
         self._stats.count(renderer.stats)
         self._refresh_stats()
@@ -215,8 +217,6 @@ class Weather:
             if self._window.context is None:
                 raise ContextError("the window is closed")
         with _current(self._window):
-        if frame.gauges:
-            self._gauges.take(frame.gauges, renderer.take_readings())
             context = obtain(self._context)
             return Renderer(context, backend=self._asked_backend, seed=self._state.seed)
 
@@ -274,6 +274,10 @@ class Weather:
         self._stats.frame += 1
         self._stats.time = self._state.clock.time
         self._cost.processed()
+        if esper.get_component(RainGauge):
+            field = self._sample_field()
+            frame = self._frame()
+            self._gauges.process(frame.gauges, self._extract.gauges, field, frame.time)
 
     def _frame(self) -> FrameData:
         if esper.current_world == self._world:
@@ -291,10 +295,6 @@ class Weather:
             self._field_frame = frame
         return self._field
 
-        if esper.get_component(RainGauge):
-            field = self._sample_field()
-            frame = self._frame()
-            self._gauges.process(frame.gauges, self._extract.gauges, field, frame.time)
     def _refresh_stats(self) -> None:
         x, y, z = self._observer or self._first_observer()
         field = self._sample_field()
