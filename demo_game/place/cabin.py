@@ -128,7 +128,7 @@ def roof(build: Builder, room: Builder) -> None:
             lip = low - normal * 0.06
             ends = right * -length / 2.0, right * length / 2.0
             face = [lip + ends[0], lip + ends[1], low + ends[1], low + ends[0]]
-            build.quad(face, palette.SHINGLE * 0.6, WOOD)
+            build.quad(face, palette.SHINGLE * 0.78, WOOD)
         under, eave = ridge, ridge + down * slope
         face = [eave + right * length / 2, eave - right * length / 2, under - right * length / 2]
         room.quad([*face, under + right * length / 2], palette.BOARD * 0.8, WOOD, 10)

@@ -82,7 +82,7 @@ def _lean_to(build: Builder) -> None:
             build.quad([(a, y1, z1), (b, y1, z1), (b, y0, z0), (a, y0, z0)], color, WOOD)
         half = length / 2
         lip = [(-half, y1 - 0.05, z1), (half, y1 - 0.05, z1), (half, y1, z1), (-half, y1, z1)]
-        build.quad(lip, palette.SHINGLE * 0.6, WOOD)
+        build.quad(lip, palette.SHINGLE * 0.78, WOOD)
     low = ROOF_HIGH - fall * (end - start)
     half = length / 2
     under = [(half, low, end), (-half, low, end), (-half, ROOF_HIGH, start)]

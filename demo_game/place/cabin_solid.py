@@ -21,6 +21,7 @@ class Block:
     rotation: NDArray  # (3, 3)
     walkable: bool = False
     solid: bool = True  # stops walkers
+    stone: bool = False
     heading: float = 0.0  # rad, of a box turned about the vertical only
 
 
@@ -68,15 +69,15 @@ def roof_blocks() -> list[Block]:
     for side in (1.0, -1.0):
         down = np.array([0.0, -np.sin(PITCH), side * np.cos(PITCH)])
         normal = np.array([0.0, np.cos(PITCH), side * np.sin(PITCH)])
-        center = np.array([0.0, RIDGE + 0.04, 0.0]) + down * slope / 2.0 + normal * 0.06
+        center = np.array([0.0, RIDGE + 0.04, 0.0]) + down * slope / 2.0 + normal * 0.035
         turn = axis_matrix((1.0, 0.0, 0.0), side * PITCH)
-        size = (WIDTH + 2.0 * GABLE, 0.10, slope)
+        size = (WIDTH + 2.0 * GABLE, 0.05, slope)
         found.append(_block(center, size, rotation=turn, solid=False))
     start, end = DEPTH / 2.0 - 0.02, DEPTH / 2.0 + cabin_porch.PORCH + 0.32
     fall = (cabin_porch.ROOF_HIGH - cabin_porch.ROOF_LOW) / (cabin_porch.POST_Z - start)
-    middle = cabin_porch.ROOF_HIGH - fall * (end - start) / 2.0 + 0.07
+    middle = cabin_porch.ROOF_HIGH - fall * (end - start) / 2.0 + 0.045
     turn = axis_matrix((1.0, 0.0, 0.0), np.arctan(fall))
-    size = (WIDTH + 0.7, 0.10, (end - start) / np.cos(np.arctan(fall)))
+    size = (WIDTH + 0.7, 0.05, (end - start) / np.cos(np.arctan(fall)))
     found.append(_block((0.0, middle, (start + end) / 2.0), size, rotation=turn, solid=False))
     return found
 
@@ -102,8 +103,11 @@ def blocks() -> list[Block]:
     center, size, turn = cabin_porch.door_box()
     found.append(_block(center, size, rotation=yaw_matrix(turn), heading=turn))
     found += [_block(at, extent) for at, extent in cabin_room.FURNITURE]
-    tall = RIDGE + 1.75
-    found.append(_block((WIDTH / 2 + 0.40, tall / 2.0 - 1.0, -0.6), (0.80, tall, 1.2)))
+    bottom, top = -1.0, RIDGE + 0.72  # the chimney, a little inside its stones
+    at = (WIDTH / 2 + 0.38, (bottom + 1.6) / 2.0, -0.6)
+    found.append(_block(at, (0.74, 1.6 - bottom, 1.14), stone=True))
+    at = (WIDTH / 2 + 0.27, (1.6 + top) / 2.0, -0.6)
+    found.append(_block(at, (0.50, top - 1.6, 0.74), stone=True))
     return found
 
 
@@ -115,7 +119,7 @@ def simple_mesh(blocks: list[Block]) -> Mesh:
             color = palette.BEAM * 0.6
         elif not block.solid:
             color = palette.SHINGLE
-        elif max(block.size) > 6.0:
+        elif block.stone:
             color = palette.STONE_WARM
         elif block.heading:
             color = palette.DOOR

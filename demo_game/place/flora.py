@@ -113,7 +113,7 @@ def broadleaf(seed: int, level: int, birch: bool = False) -> Mesh:
     spread, base = (0.17, 0.34) if birch else (0.28, 0.36)
     thick = 0.014 if birch else 0.028
     if level == 3:
-        crown = [(-0.05, 0.1), (0.10, 1.1), (0.36, 1.0), (0.58, 0.25)]
+        crown = [(-0.08, 0.3), (0.06, 1.0), (0.30, 1.1), (0.50, 0.75), (0.62, 0.1)]
         return _silhouette(build, color, [(base + y, spread * r) for y, r in crown])
     lean = rng.uniform(-0.03, 0.03, 2)
     fork = np.array([lean[0], 0.42, lean[1]])

@@ -60,7 +60,7 @@ def _stands(terrain: Terrain, rng: np.random.Generator) -> NDArray:
     return np.concatenate([meadow, reeds])
 
 
-def grass(terrain: Terrain, seed: int = 0, blades: int = 4) -> Grass:
+def grass(terrain: Terrain, seed: int = 0, blades: int = 3) -> Grass:
     """All tufts of the place."""
     rng = np.random.default_rng(seed + 11)
     stands = _stands(terrain, rng)

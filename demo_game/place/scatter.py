@@ -13,7 +13,7 @@ from .noise import smoothstep
 from .terrain import Terrain
 
 VARIANTS = 3  # shapes of each kind
-FAR_TREES = 330
+FAR_TREES = 250
 
 
 @dataclass(frozen=True)

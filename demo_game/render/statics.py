@@ -14,11 +14,11 @@ from .frame_block import FrameBlock
 from .geometry import PLAIN_FORMAT, PLAIN_NAMES, VERTEX_FORMAT, VERTEX_NAMES
 from .programs import compile_program, release_all, set_matrix
 
-CABIN_NEAR = 55.0  # m, within which the cabin has all its planks
+CABIN_NEAR = 44.0  # m, within which the cabin has all its planks
 # m, from where to where a mesh is drawn; others always are
 SHOWN = {"room": (0.0, CABIN_NEAR), "cabin": (0.0, CABIN_NEAR), "cabin_far": (CABIN_NEAR, 1e9),
-         "mailbox": (0.0, 160.0), "yard": (0.0, 110.0), "lamps": (0.0, 260.0),
-         "fences": (0.0, 190.0), "rocks": (0.0, 150.0)}  # fmt: skip
+         "mailbox": (0.0, 160.0), "yard": (0.0, 110.0), "lamps": (0.0, 220.0),
+         "fences": (0.0, 150.0), "rocks": (0.0, 110.0)}  # fmt: skip
 PARTS = 12
 ACTOR_REACH = 170.0  # m
 
