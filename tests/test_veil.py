@@ -43,7 +43,7 @@ def brute_path(
     t = (np.arange(30_000) + 0.5) * (last / 30_000)
     at = np.asarray(position) + ray * t[:, None]
     share = veil.full_share(at[:, [0, 2]], axis, shape) * (at[:, 1] <= ceiling)
-    share *= 1.0 - veil.drops_share(t, level, shown)
+    share *= 1.0 - veil.drops_share(t * np.linalg.norm(ray), shown)
     return float(share.sum() * last / 30_000 * np.linalg.norm(ray))
 
 
@@ -342,3 +342,15 @@ def test_a_level_look_above_the_ceiling_has_no_line_along_the_horizon(stage: Sta
     found = stage.draw(only(at, shaft()))
     assert found[26:, :, 3].max() == 0.0
     assert found[:26, :, 3].max() > 0.1
+
+
+def test_overhead_the_veil_has_no_hole(stage: Stage) -> None:
+    """The drops show the rain as far as they reach, straight up as elsewhere."""
+    at = camera((0.0, 1.7, 0.0), 0.3, 1.4, vertical=40.0)
+    wide = shaft(
+        axis=axis_of((0.0, 0.0), 0.0), shape=(300.0, 300.0, 0.9), extinction=0.004, shown=25.0
+    )
+    found = stage.draw(only(at, wide))[..., 3].astype(float)
+    assert found.min() > 0.4
+    assert np.abs(np.diff(found, axis=0)).max() < 0.01
+    assert np.abs(np.diff(found, axis=1)).max() < 0.01

@@ -32,14 +32,13 @@ def full_share(
     return np.clip((1.0 - u * u - w * w) / (1.0 - shape[2]), 0.0, 1.0)
 
 
-def drops_share(t: ArrayLike, level: float, reach: float) -> FloatArray:
-    """Share of the rain at depth t that the drops show, from 1 at the observer to 0 at `reach`.
+def drops_share(distance: ArrayLike, shown: float) -> FloatArray:
+    """Share of the rain at a distance (m) that the drops show, from 1 at 0 to 0 at `shown` (m).
 
-    `level`: horizontal metres of the ray per metre of depth; `reach`: m, 0 for no drops.
+    All of it is the veil's where `shown` is 0.
     """
-    if reach <= 0.0:
-        return np.zeros_like(np.asarray(t, np.float64))
-    return np.clip(1.0 - np.asarray(t, np.float64) * level / reach, 0.0, 1.0)
+    away = np.asarray(distance, np.float64)
+    return np.clip(1.0 - away / shown, 0.0, 1.0) if shown > 0.0 else np.zeros_like(away)
 
 
 def over_level(
@@ -71,8 +70,7 @@ def rain_span(
     t1 = np.where(rise > 0.0, np.minimum(t1, cut), t1)
     t0 = np.where(rise < 0.0, np.maximum(cut, 0.0), 0.0)
     if shown > 0.0:
-        level = np.hypot(ray[..., 0], ray[..., 2])
-        reach = shown / np.maximum(level, 1e-4)
+        reach = shown / np.sqrt((ray * ray).sum(axis=-1))
         x = np.minimum(t1 / np.maximum(reach, 1e-4), 1.0)
         t0 = np.maximum(t0, reach * x * (1.0 - 0.5 * x))
     return t0, t1

@@ -35,10 +35,11 @@ void main()
     if (rise > 0.0) t1 = min(t1, cut);
     else t0 = max(t0, cut);
 
-    // The drops' share falls from 1 at the observer to 0 at the distance veil_load.y.
-    float level2 = dot(ray.xz, ray.xz);
+    // The drops' share falls from 1 at the observer to 0 at the distance veil_load.y, overhead too:
+    // by the level distance alone, there would be a hole in the veil at the zenith.
+    float length2 = dot(ray, ray);
     if (veil_load.y > 0.0) {
-        float shown = veil_load.y * inversesqrt(max(level2, 1e-8));
+        float shown = veil_load.y * inversesqrt(length2);
         float x = min(t1 / shown, 1.0);
         t0 = max(t0, shown * x * (1.0 - 0.5 * x));
     }
@@ -54,7 +55,7 @@ void main()
     t0 -= middle;
     t1 -= middle;
     float path = over_level(outer, t0, t1) - over_level(inner, t0, t1);
-    path *= sqrt(level2 + ray.y * ray.y) / (over_a * (1.0 - veil_shape.z));
+    path *= sqrt(length2) / (over_a * (1.0 - veil_shape.z));
     float opacity = 1.0 - exp(-veil_load.x * path);
     if (opacity < 0.002) discard;
     // A pixel's own grain, under one step of an 8-bit target, keeps the soft ramp from banding.
