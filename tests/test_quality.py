@@ -10,8 +10,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from weather_ecs import Weather
 from weather_ecs.errors import InvalidValueError
-from weather_ecs.quality import LEVELS, LOWEST_BUDGET, QUALITIES, AutoQuality, settings_for
+from weather_ecs.quality import (
+    LEVELS,
+    LOWEST_BUDGET,
+    QUALITIES,
+    AutoQuality,
+    QualitySettings,
+    settings_for,
+)
+from worlds import fresh_world
 
 TARGET = 1000.0 / 60.0
 
@@ -31,6 +40,46 @@ def test_levels_grow():
 def test_unknown_levels_are_refused_with_the_names_there_are(name):
     with pytest.raises(InvalidValueError, match=r"quality.*low, medium, high, ultra, auto"):
         settings_for(name)
+
+
+def test_a_game_may_bring_its_own_settings():
+    own = QualitySettings("film", 1_000_000, 8, 2048, True)
+    assert settings_for(own) is own
+    assert settings_for(LEVELS["high"]) is LEVELS["high"]
+    with fresh_world(), Weather(quality=own) as weather:
+        assert weather.quality == weather.stats.quality == "film"
+        weather.quality = "low"
+        assert weather.quality == "low"
+        weather.quality = QualitySettings("less", 1000, 1, 64, False)
+        assert weather.quality == "less"
+        with pytest.raises(InvalidValueError, match=r"QualitySettings\.drops"):
+            weather.quality = QualitySettings("none", 0, 1, 64, False)
+        assert weather.quality == "less"
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("name", "auto"),
+        ("name", ""),
+        ("name", None),
+        ("name", []),
+        ("drops", 0),
+        ("drops", 8_000_001),
+        ("drops", 1000.0),
+        ("drops", True),
+        ("containers", 0),
+        ("heightmap_size", 8),
+        ("heightmap_size", "512"),
+        ("veil", 1),
+        ("budget", 0.0),
+        ("budget", math.nan),
+    ],
+)
+def test_bad_settings_are_refused_by_field(field, value):
+    own = {"name": "film", "drops": 1000, "containers": 2, "heightmap_size": 64, "veil": False}
+    with pytest.raises(InvalidValueError, match=rf"QualitySettings\.{field}"):
+        settings_for(QualitySettings(**(own | {field: value})))
 
 
 @pytest.mark.parametrize("target", [0, -1, math.nan, math.inf, "fast"])

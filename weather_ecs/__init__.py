@@ -13,6 +13,7 @@ from weather_ecs.errors import (
     SnapshotError,
     WeatherError,
 )
+from weather_ecs.quality import QualitySettings
 from weather_ecs.sampling import Sample
 from weather_ecs.stats import Stats
 from weather_ecs.weather import Weather
@@ -23,6 +24,7 @@ __all__ = [
     "ClosedError",
     "ContextError",
     "InvalidValueError",
+    "QualitySettings",
     "Sample",
     "ShaderError",
     "SnapshotError",

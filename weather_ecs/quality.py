@@ -7,6 +7,7 @@ from collections import deque
 from dataclasses import dataclass, replace
 from statistics import median
 
+from weather_ecs.components._base import flag, integer, number
 from weather_ecs.errors import InvalidValueError
 
 QUALITIES = ("low", "medium", "high", "ultra", "auto")
@@ -16,7 +17,10 @@ _FIRST_BUDGET = 14_000 / 120_000  # auto starts as medium
 
 @dataclass(frozen=True, slots=True)
 class QualitySettings:
-    """What one draw may use. Buffers are made for `drops`; a frame moves and draws a share."""
+    """What one draw may use. Buffers are made for `drops`; a frame moves and draws a share.
+
+    The levels are such settings; a game may make its own, under a name of its own.
+    """
 
     name: str
     drops: int  # for one observer
@@ -36,11 +40,32 @@ LEVELS: dict[str, QualitySettings] = {
 }
 
 
-def settings_for(name: object) -> QualitySettings:
-    """The settings of a level. Raises InvalidValueError for a name that is none."""
-    if not isinstance(name, str) or name not in LEVELS:
-        raise InvalidValueError("quality", name, ", ".join(QUALITIES))
-    return LEVELS[name]
+_CHECKS = {
+    "drops": integer(1, 8_000_000),  # OpenGL promises 65 535 work groups, of 128 drops each
+    "containers": integer(1, 32),
+    "heightmap_size": integer(16, 8192),
+    "veil": flag(),
+    "budget": number(LOWEST_BUDGET, 1.0),
+}
+
+
+def settings_for(quality: object) -> QualitySettings:
+    """The settings of a level, or a game's own, checked. Raises InvalidValueError for neither."""
+    if isinstance(quality, QualitySettings):
+        return _checked(quality)
+    if not isinstance(quality, str) or quality not in LEVELS:
+        raise InvalidValueError("quality", quality, f"{', '.join(QUALITIES)}, or QualitySettings")
+    return LEVELS[quality]
+
+
+def _checked(own: QualitySettings) -> QualitySettings:
+    if any(own is level for level in LEVELS.values()):
+        return own
+    if not isinstance(own.name, str) or not own.name or own.name in LEVELS:
+        raise InvalidValueError("QualitySettings.name", own.name, "a text that names no level")
+    for field, check in _CHECKS.items():
+        check(f"QualitySettings.{field}", getattr(own, field))
+    return own
 
 
 class FrameCost:

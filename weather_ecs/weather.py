@@ -55,7 +55,7 @@ class Weather:
         *,
         context: Any = None,
         seed: int = 0,
-        quality: str = "auto",
+        quality: str | QualitySettings = "auto",
         backend: str = "auto",
     ) -> None:
         self._closed = True  # until everything stands, there is nothing to close
@@ -126,11 +126,14 @@ class Weather:
 
     @property
     def quality(self) -> str:
-        """What the weather may cost: low, medium, high, ultra, or auto, which adapts."""
+        """What the weather may cost: low, medium, high, ultra, or auto, which adapts.
+
+        It may be set to a game's own `QualitySettings` too, and is then their name.
+        """
         return self._settings.name
 
     @quality.setter
-    def quality(self, value: str) -> None:
+    def quality(self, value: str | QualitySettings) -> None:
         self._check_open()
         self._settings = settings_for(value)
         self._auto = AutoQuality()

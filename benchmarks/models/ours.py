@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import esper
 
 from benchmarks.models.stage import Stage
-from weather_ecs import Weather
+from weather_ecs import QualitySettings, Weather
 from weather_ecs.components import Observer, RainArea, RainContainer
 
 WIDE = 1000.0  # m, radius of an area whose edge is out of the picture
@@ -28,7 +28,7 @@ class OurRain:
         stage: Stage,
         rain_rate: float,
         *,
-        quality: str = "high",
+        quality: str | QualitySettings = "high",
         backend: str = "auto",
         veil: bool = False,
         others: Sequence[object] = (),

@@ -15,9 +15,11 @@ import random
 import statistics
 import subprocess
 import sys
+from collections.abc import Mapping
 from time import thread_time
 from typing import Any
 
+from benchmarks.models.model import Model
 from benchmarks.models.ours import OurRain
 from benchmarks.models.stage import Stage, create_context
 from benchmarks.models.surroundings import areas_behind, areas_in_view, houses, observers
@@ -51,15 +53,26 @@ def measure_here(quick: bool) -> dict[str, Any]:
         name: OurRain(stage, RAIN_RATE, veil=True, **({"quality": "medium"} | made_of))
         for name, made_of in cases(quick).items()
     }
+    ms = time_in_turns(stage, models, 15 if quick else 150)
+    for model in models.values():
+        model.release()
+    stage.release()
+    driver = str(ctx.info["GL_RENDERER"])
+    ctx.release()
+    return {"driver": driver, "ms": ms}
+
+
+def time_in_turns(stage: Stage, models: Mapping[str, Model], turns: int) -> dict[str, list[float]]:
+    """Median CPU milliseconds of `move` and of `draw` in this thread, by model."""
     times: dict[str, list[tuple[float, float]]] = {name: [] for name in models}
     rng = random.Random(1)
     gc.disable()
-    for turn in range(WARM_UP + (15 if quick else 150)):
+    for turn in range(WARM_UP + turns):
         # In a new order every time: whoever comes first, or after a large case, is slower.
         for name in rng.sample(list(models), len(models)):
             model = models[name]
             stage.begin()
-            ctx.finish()
+            stage.ctx.finish()
             start = thread_time()
             model.move(DT)
             moved = thread_time()
@@ -67,21 +80,16 @@ def measure_here(quick: bool) -> dict[str, Any]:
             times[name].append((moved - start, thread_time() - moved))
         if turn % 10 == 0:
             gc.collect()
-    for model in models.values():
-        model.release()
-    stage.release()
-    driver = str(ctx.info["GL_RENDERER"])
-    ctx.release()
-    medians = {
+    gc.enable()
+    return {
         name: [statistics.median(part) * 1e3 for part in zip(*pairs[WARM_UP:], strict=True)]
         for name, pairs in times.items()
     }
-    return {"driver": driver, "ms": medians}
 
 
-def measure_apart(quick: bool) -> dict[str, Any]:
-    """`measure_here` in a process whose driver does nothing, where the driver can be told so."""
-    command = [sys.executable, "-m", "benchmarks.models.python_cost", *(["--quick"] * quick)]
+def measure_apart(quick: bool, module: str = "benchmarks.models.python_cost") -> dict[str, Any]:
+    """What a module prints in a process whose driver does nothing, where it can be told so."""
+    command = [sys.executable, "-m", module, *(["--quick"] * quick)]
     done = subprocess.run(
         command,
         env=os.environ | {"GALLIUM_NOOP": "true"},
