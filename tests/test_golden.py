@@ -1,0 +1,84 @@
+"""Pictures of the rain, held against those that were looked at and found good.
+
+After a change of the looks that is meant, look at the new pictures and keep them:
+
+    REGENERATE_GOLDEN=1 python -m pytest tests/test_golden.py
+
+They were made with Mesa's llvmpipe. Other drivers round and rasterise otherwise, so that there the
+pictures are only compared as a whole: how bright, and whether the rain is where it should be.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import moderngl
+import numpy as np
+import pytest
+from PIL import Image
+
+from tests.golden_scenes import SCENES, picture
+from weather_ecs.gpu.context import probe
+
+GOLDEN = Path(__file__).parent / "golden"
+CHANGED = 12  # of 255, in any channel: a pixel that is another one
+
+
+def kept(name: str) -> np.ndarray:
+    return np.asarray(Image.open(GOLDEN / f"{name}.png").convert("RGB"))
+
+
+def difference(found: np.ndarray, expected: np.ndarray) -> tuple[float, float]:
+    """(mean of the difference in 0 to 255, share of pixels that are others)."""
+    off = np.abs(found.astype(int) - expected.astype(int))
+    return float(off.mean()), float((off.max(axis=2) > CHANGED).mean())
+
+
+def coarse(image: np.ndarray) -> np.ndarray:
+    """Means of blocks of 20 pixels, in which single drops do not count."""
+    height, width, _ = image.shape
+    return image.reshape(height // 20, 20, width // 20, 20, 3).mean(axis=(1, 3))
+
+
+def check(ctx: moderngl.Context, found: np.ndarray, name: str, folder: Path) -> None:
+    expected = kept(name)
+    mean, others = difference(found, expected)
+    blocks = float(np.abs(coarse(found) - coarse(expected)).max())
+    if "llvmpipe" in ctx.info["GL_RENDERER"]:
+        good = mean < 0.5 and others < 0.01 and blocks < 4.0
+    else:
+        good = mean < 4.0 and blocks < 16.0
+    if not good:
+        Image.fromarray(found).save(folder / f"{name}.png")
+    assert good, (
+        f"{name}: mean {mean:.2f}, {others:.1%} other pixels, blocks up to {blocks:.1f}; "
+        f"the picture is {folder / name}.png"
+    )
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_picture_is_the_one_that_was_kept(
+    ctx: moderngl.Context, name: str, tmp_path: Path
+) -> None:
+    found = picture(ctx, name)
+    if os.environ.get("REGENERATE_GOLDEN"):
+        GOLDEN.mkdir(exist_ok=True)
+        Image.fromarray(found).save(GOLDEN / f"{name}.png", optimize=True)
+    check(ctx, found, name, tmp_path)
+
+
+@pytest.mark.parametrize("name", ["near", "cloudburst"])
+def test_the_other_backend_draws_it_too(ctx: moderngl.Context, name: str, tmp_path: Path) -> None:
+    if not probe(ctx).compute:
+        pytest.skip("there is only one here")
+    check(ctx, picture(ctx, name, "feedback"), name, tmp_path)
+
+
+def test_no_two_pictures_pass_for_each_other() -> None:
+    names = list(SCENES)
+    for k, one in enumerate(names):
+        assert kept(one).shape == (180, 320, 3)
+        for other in names[k + 1 :]:
+            mean, others = difference(kept(one), kept(other))
+            assert mean > 4.0 and others > 0.05
