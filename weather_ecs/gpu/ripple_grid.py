@@ -7,7 +7,7 @@ import math
 import moderngl
 
 # The map holds rises from cell to cell but one; this one is as much as it can tell, in mm.
-GREATEST_RISE = 16.0
+GREATEST_RISE = 14.0
 _HALVES = ((True, True, False, False), (False, False, True, True))
 
 

@@ -8,8 +8,7 @@ A wave of wave number k (rad a cell) turns by w a step, where 2 cos w = l(k) and
 
     l(k) = (cos kx + cos ky + 2 cos kx cos ky) / 2
 
-never leaves [-2, 2]: the scheme is stable. Long waves cover COURANT cells a step. The amplitude's
-unit is a millimetre here.
+never leaves [-2, 2]: the scheme is stable. Long waves cover COURANT cells a step.
 """
 
 from __future__ import annotations
@@ -25,14 +24,15 @@ from .checks import count, number
 from .rain_step import hash_unit, hash_word
 
 LEAST_DAMPING, MOST_DAMPING = 5, 9  # n; a larger one damps less
-THRESHOLD = 0.01  # mm
+UNIT = 30.0  # mm, the amplitude's: the threshold is a fifteenth of the least crater
+THRESHOLD = 0.01 * UNIT  # mm
 COURANT = math.sqrt(0.75)  # cells that a long wave covers in a step
 
 # What a drop does to the grid; also in shaders/ripple_source.vert.
 WIDTH = 1.25  # cells, of the crater: its radius over sqrt(2)
 SPREAD = 4.0 * WIDTH  # cells, beyond which a source is nothing
-DEPTH = 0.08  # mm of crater per unit of mm^1.5 m/s, for one real drop
-SHALLOWEST, DEEPEST = 3.5, 9.0  # mm
+DEPTH = 0.12  # mm of crater per unit of mm^1.5 m/s, for one real drop
+SHALLOWEST, DEEPEST = 5.0, 10.0  # mm
 ROUGHEST = 0.08  # at 25 mm/h
 ON_SURFACE = 0.05  # m, height within which an impact is one on the water
 

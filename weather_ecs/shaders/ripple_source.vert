@@ -6,9 +6,9 @@
 out vec2 vs_cell;    // column and row, 0.5 in the first cell
 out float vs_depth;  // mm; 0 where there is none
 
-const float DEPTH = 0.08;
-const float SHALLOWEST = 3.5;
-const float DEEPEST = 9.0;
+const float DEPTH = 0.12;
+const float SHALLOWEST = 5.0;
+const float DEEPEST = 10.0;
 const float ON_SURFACE = 0.05;
 
 float crater_depth(Impact i)

@@ -53,6 +53,11 @@ class RippleList:
             self._given, self._all = occluders, occluders + self._faces
         return self._all if self._faces else occluders
 
+    def find(self, surface: RippleSurface) -> RippleData | None:
+        """What a surface was taken over as, while it lives."""
+        data = self._known.get(surface, (None, None))[0]
+        return data if any(data is known for known in self.surfaces) else None
+
     def _of(self, uid: int, surface: RippleSurface) -> tuple[RippleData, OccluderData]:
         data = RippleData(
             uid,

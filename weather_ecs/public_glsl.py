@@ -1,0 +1,22 @@
+"""`glsl`: pieces of shader for a game's own shaders."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import resources
+
+from weather_ecs.errors import InvalidValueError
+
+PUBLIC = ("ripple_sample.glsl",)
+
+
+@cache
+def glsl(name: str) -> str:
+    """Text of one of the package's public includes, without `#version`, to be pasted in.
+
+    `ripple_sample.glsl`: see `Weather.ripples`. Raises InvalidValueError for another name.
+    """
+    if name not in PUBLIC:
+        raise InvalidValueError("name", name, ", ".join(PUBLIC))
+    shaders = resources.files("weather_ecs").joinpath("shaders")
+    return shaders.joinpath(name).read_text(encoding="utf-8")
