@@ -28,7 +28,7 @@ SPLASH = UniformBlock(
     ("splash_pull", "vec4"),  # m/s2, of the droplets; m, distance of detail
     ("splash_grain", "vec4"),  # m, diameter of a droplet as it is drawn
     ("water_axis", "vec4", MAX_WATERS),  # centre x, centre z, cos heading, sin heading
-    ("water_shape", "vec4", MAX_WATERS),  # half-sizes along the heading and across, level, m; is an ellipse
+    ("water_shape", "vec4", MAX_WATERS),  # half-sizes u and w, level, m; 1 for an ellipse
     ("water_count", "int"),
 )
 DRAW = ProgramKey(vertex="splash.vert", geometry="splash.geom", fragment="splash.frag")
@@ -62,7 +62,9 @@ class SplashPass:
 
         Needs the blocks RainView and Shelter bound, and the heightmap at its unit.
         """
-        self._fill(view, look)
+        fill_splash(self._block, view, look)
+        self._block.upload()
+        self._block.bind()
         self._texture.use(FRAMES_UNIT)
         self._splashes.run(view, _points)
         if self._draws % COUNT_EVERY == 0:
@@ -72,28 +74,28 @@ class SplashPass:
             self._ctx.disable(moderngl.RASTERIZER_DISCARD)
         self._draws += 1
 
-    def _fill(self, view: ViewData, look: SplashLook) -> None:
-        data = self._block.data
-        data["splash_look"] = (look.size, look.largest, look.duration, look.opacity)
-        data["splash_spray"] = (look.share, look.droplets, look.droplet_speed, look.spread)
-        data["splash_pull"] = (*acceleration(view.frame.wind, look.drift), look.detail)
-        data["splash_grain"] = (look.droplet_size * 1e-3, 0.0, 0.0, 0.0)
-        waters = nearest_waters(view)
-        for k, water in enumerate(waters):
-            x, y, z = water.center
-            turn = math.cos(water.heading), math.sin(water.heading)
-            data["water_axis"][k] = (x, z, *turn)
-            u, w = water.size
-            data["water_shape"][k] = (0.5 * u, 0.5 * w, y, water.ellipse)
-        data["water_count"] = len(waters)
-        self._block.upload()
-        self._block.bind()
-
     def release(self) -> None:
         """Give everything back; twice does no harm."""
         things = (self._counter, self._counted, self._splashes, self._block, self._texture)
         for thing in things:
             thing.release()
+
+
+def fill_splash(block: BlockBuffer, view: ViewData, look: SplashLook) -> None:
+    """Write the looks of the splashes, what carries their droplets, and where there is water."""
+    data = block.data
+    data["splash_look"] = (look.size, look.largest, look.duration, look.opacity)
+    data["splash_spray"] = (look.share, look.droplets, look.droplet_speed, look.spread)
+    detail = max(look.detail, 1e-3)
+    data["splash_pull"] = (*acceleration(view.frame.wind, look.drift), detail)
+    data["splash_grain"] = (look.droplet_size * 1e-3, 0.0, 0.0, 0.0)
+    waters = nearest_waters(view)
+    for k, water in enumerate(waters):
+        x, y, z = water.center
+        u, w = water.size
+        data["water_axis"][k] = (x, z, math.cos(water.heading), math.sin(water.heading))
+        data["water_shape"][k] = (0.5 * u, 0.5 * w, y, water.ellipse)
+    data["water_count"] = len(waters)
 
 
 def nearest_waters(view: ViewData) -> tuple[RippleData, ...]:

@@ -62,7 +62,7 @@ Cloud = tuple[NDArray, NDArray, NDArray, NDArray]  # x, y, mass, light
 
 
 def _crown(age: float, rng: np.random.Generator) -> tuple[Cloud, float]:
-    """A wall that rises from a thin ring, frays into jets and beads, and sinks; higher to one side."""
+    """A wall that rises from a thin ring, frays into jets and beads, and sinks; lopsided."""
     jets = 8 + int(rng.integers(0, 5))
     at = (np.arange(jets) + rng.uniform(-0.35, 0.35, jets)) * (2.0 * math.pi / jets)
     strength = rng.uniform(0.5, 1.2, jets) * (1.0 + 0.4 * np.cos(at - rng.uniform(0.0, 6.3)))
@@ -123,7 +123,7 @@ def _burst(age: float, rng: np.random.Generator) -> tuple[Cloud, float]:
 
 
 def _film(age: float) -> NDArray[np.uint8]:
-    """Seen along the normal: water driven out over the ground in a frayed rim, threads and beads."""
+    """Seen along the normal: water driven out over the ground: a frayed rim, threads, beads."""
     radius, angle = _polar()
     rng = np.random.default_rng(22)
     threads = 13
@@ -149,8 +149,8 @@ def _ring(age: float) -> NDArray[np.uint8]:
     radius, _ = _polar()
     water = np.zeros_like(radius)
     bright = np.full_like(radius, 0.5)
-    for at, strength in ((0.82, 1.0), (0.50, 0.7 * _smooth(0.15, 0.4, age))):
-        x = (radius - at) / 0.075
+    for at, strength in ((0.79, 1.0), (0.50, 0.7 * _smooth(0.15, 0.4, age))):
+        x = (radius - at) / (0.09 - 0.035 * age)
         water += strength * np.exp(-x * x)
         bright += strength * 0.5 * np.clip(-1.6 * x * np.exp(-x * x), -0.6, 1.0)
     return _picture(water * (1.0 - _smooth(0.35, 1.0, age)), bright)

@@ -89,7 +89,7 @@ def bits(seed: NDArray) -> NDArray[np.uint32]:
 
 def tangents(normal: NDArray) -> tuple[FloatArray, FloatArray]:
     """Two unit vectors across each normal, (n, 3); the normals point upwards."""
-    x, y, z = normal.T
+    x, y = normal[:, 0], normal[:, 1]
     first = np.stack([y, -x, np.zeros_like(x)], axis=1)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
     return first, np.cross(normal, first)
@@ -102,14 +102,14 @@ def launches(
 
     speed: the drop's, m/s; height: the splash's `stature`.
     """
-    h = hash_word(bits(seed) + np.uint32(0x9E3779B9) * np.uint32(k + 1))
+    h = hash_word(bits(seed) + np.uint32(0x9E3779B9 * (k + 1) & 0xFFFFFFFF))
     a = hash_unit(h)
     b = hash_unit(h ^ np.uint32(0x85EBCA6B))
     c = hash_unit(h ^ np.uint32(0xC2B2AE35))
     number = np.floor(law.droplets + hash_unit(bits(seed) ^ np.uint32(0x27D4EB2F)))
     turn = (k + 0.8 * a) * (2.0 * math.pi / np.maximum(number, 1.0)) + 40.0 * seed
     tilt = law.spread * (0.35 + 0.65 * b)
-    pace = speed * law.droplet_speed * (0.5 + 0.5 * c) * height
+    pace = speed * law.droplet_speed * (0.5 + 0.5 * c) * np.minimum(height, 1.0)
     first, second = tangents(normal)
     across = first * np.cos(turn)[:, None] + second * np.sin(turn)[:, None]
     way = normal * np.cos(tilt)[:, None] + across * np.sin(tilt)[:, None]
@@ -128,3 +128,21 @@ def landing(normal: NDArray, velocity: NDArray, law: SplashLaw) -> FloatArray:
     rise = (normal * velocity).sum(axis=1)
     back = np.where(fall < 0.0, -2.0 * rise / np.minimum(fall, -1e-6), LONGEST)
     return np.minimum(back, LONGEST)
+
+
+def opacities(
+    weight: NDArray, depth: NDArray, pixels: NDArray, facing: NDArray, opacity: float, detail: float
+) -> tuple[FloatArray, FloatArray]:
+    """Of crowns, and of films and droplets, before the texture and age take their share.
+
+    depth: m in front of the camera; pixels: of the crown's radius; facing: cosine of the angle
+    between the way to the camera and the normal; detail: m.
+    """
+    whole = opacity * np.minimum(weight * 0.1, 1.0) * _smooth(0.2, 0.6, depth)
+    crown = whole * np.minimum(pixels, 1.0) * (1.0 - _smooth(0.55, 0.92, np.abs(facing)))
+    return crown, whole * (1.0 - _smooth(0.6 * detail, detail, depth))
+
+
+def _smooth(low: float, high: float, x: NDArray) -> FloatArray:
+    t = np.clip((x - low) / max(high - low, 1e-9), 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)

@@ -52,5 +52,5 @@ void main()
     vs_normal = i.normal;
     vs_color = vec4(encode(drop_light(i.position, ray)), crown);
     vs_form = vec4(radius, x, on_water(i.position), i.seed);
-    vs_throw = vec3(i.speed * splash_spray.z * high, i.age, detail);
+    vs_throw = vec3(i.speed * splash_spray.z * min(high, 1.0), i.age, detail);
 }
