@@ -15,6 +15,7 @@ from weather_ecs.components import (
     PointLight,
     RainArea,
     RainContainer,
+    RippleSurface,
     SplashEmitter,
     Sun,
     Wind,
@@ -31,6 +32,7 @@ SHOWER_SHARE = 0.6  # of the rain rate of the large one
 SHOWER_DISTANCE = 420.0  # m that its course keeps from the place, to the left of the wind
 SHOWER_COURSE = 600.0  # m before and behind there, then it begins anew
 SHOWER_BEFORE = -250.0  # m along its course, where it is when the game begins
+POND_RIM = 1.1  # of its radii, as far as its wobbling shore reaches
 PLACE_MIDDLE = (0.0, -40.0)  # (x, z), m
 
 
@@ -52,6 +54,10 @@ class Entities:
         looks = RainContainer(), SplashEmitter()
         for component in (self.area, self.shower, *looks, self._wind, self._sun):
             esper.create_entity(component)
+        (x, z), (a, b), level = place.pond
+        size = (2.0 * POND_RIM * a, 2.0 * POND_RIM * b)
+        self.pond = RippleSurface((x, level, z), size, shape="ellipse", draw=False)
+        esper.create_entity(self.pond)
         self._lamps = []
         for position, color, reach in place.lamps:
             lamp = PointLight(position=position, color=color, reach=reach)

@@ -195,5 +195,6 @@ class Game:
                 for area, rate in self._entities.rates(mood)
             ],
             wind=(mood.wind_speed * x, 0.0, mood.wind_speed * z),
+            ripples=self.weather.ripples(self._entities.pond),
             lamps=light.lamps,
         )

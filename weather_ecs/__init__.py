@@ -13,6 +13,7 @@ from weather_ecs.errors import (
     SnapshotError,
     WeatherError,
 )
+from weather_ecs.public_glsl import glsl
 from weather_ecs.quality import QualitySettings
 from weather_ecs.sampling import Sample
 from weather_ecs.stats import Stats
@@ -32,4 +33,5 @@ __all__ = [
     "Weather",
     "WeatherError",
     "__version__",
+    "glsl",
 ]

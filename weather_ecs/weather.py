@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from weather_ecs.gpu.renderer import Renderer
+    from weather_ecs.gpu.ripple_map import RippleMap
 
 BACKENDS = ("auto", "compute", "feedback")
 
@@ -192,6 +193,19 @@ class Weather:
             projection = self._window.projection if projection is None else projection
         with _current(self._window):
             self._draw(camera_from(view, projection), observer, perf_counter())
+
+    def ripples(
+        self, surface: RippleSurface, *, observer: Observer | None = None
+    ) -> RippleMap | None:
+        """The rings on a surface as the last draw left them, for a water shader of the game's own.
+
+        None where nothing was drawn yet, and for a surface that is not in the weather's world.
+        """
+        self._check_open()
+        data = self._extract.ripples.find(surface)
+        if self._renderer is None or data is None:
+            return None
+        return self._renderer.ripples.map(self._keys.key(observer), data)
 
     def _draw(self, camera: Camera, observer: Observer | None, started: float) -> None:
         frame = self._frame()

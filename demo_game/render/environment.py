@@ -4,10 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any, Protocol
 
 Color = tuple[float, float, float]  # linear RGB
 # (center (x, z) m, radii (a, b) m, heading rad, rain rate mm/h, ceiling m)
 RainPatch = tuple[tuple[float, float], tuple[float, float], float, float, float]
+
+
+class Ripples(Protocol):
+    """Rings on water, for a program that includes ripple_sample.glsl."""
+
+    def use(self, program: Any, unit: int) -> None:
+        """Bind them."""
 
 
 @dataclass
@@ -25,6 +33,7 @@ class Environment:
     fog_color: Color = (0.60, 0.66, 0.72)
     rain_areas: Sequence[RainPatch] = field(default_factory=list)
     wind: tuple[float, float, float] = (2.0, 0.0, 0.6)  # m/s
+    ripples: Ripples | None = None  # on the pond
     lamps: float | None = None  # 0..1, how bright lamps burn; None: as the daylight asks
 
     def lamp_strength(self) -> float:

@@ -11,12 +11,14 @@ from typing import Protocol
 import moderngl
 from numpy.typing import NDArray
 
+from weather_ecs import glsl
+
 _INCLUDE = re.compile(r'^#include "([\w.]+)"$')
 
 
 @cache
 def source(name: str) -> str:
-    """Text of a shader file with its includes; each file is taken in once."""
+    """Text of a shader file with its includes, the game's or the weather's; each once."""
     return "\n".join(_lines(name, set()))
 
 
@@ -24,7 +26,8 @@ def _lines(name: str, seen: set[str]) -> list[str]:
     if name in seen:
         return []
     seen.add(name)
-    text = resources.files("demo_game").joinpath("shaders", name).read_text(encoding="utf-8")
+    file = resources.files("demo_game").joinpath("shaders", name)
+    text = file.read_text(encoding="utf-8") if file.is_file() else glsl(name)
     found: list[str] = []
     for line in text.splitlines():
         match = _INCLUDE.match(line)

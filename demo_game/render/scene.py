@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from demo_game.place import Place, paint
 
 from . import geometry
-from .environment import Environment
+from .environment import Environment, Ripples
 from .frame_block import FrameBlock, as_matrix, unit
 from .ground import Ground
 from .ground_shadow import GroundShadow
@@ -110,7 +110,11 @@ class SceneRenderer:
         target.clear(0.0, 0.0, 0.0, 1.0, viewport=viewport)
         self._draw_solid(planes, camera, environment)
         self._sky.draw(v, p)
-        self._draw_blended(target, v, planes, camera)
+        self._draw_blended(target, v, planes, camera, environment.ripples)
+
+    def show(self, name: str, shown: bool) -> None:
+        """Show one of the place's still meshes or leave it out."""
+        self._statics.show(name, shown)
 
     def _bind_maps(self) -> None:
         self._shadows.live.use(SHADOW_UNIT)
@@ -135,13 +139,14 @@ class SceneRenderer:
         ctx.disable(moderngl.CULL_FACE)
 
     def _draw_blended(
-        self, target: moderngl.Framebuffer, view: NDArray, planes: NDArray, camera: NDArray
-    ) -> None:
+        self, target: moderngl.Framebuffer, view: NDArray, planes: NDArray, camera: NDArray,
+        ripples: Ripples | None,
+    ) -> None:  # fmt: skip
         target.depth_mask = False
         self.ctx.blend_equation = moderngl.FUNC_ADD, moderngl.FUNC_ADD
         self._bind_maps()
         if self._water.seen(planes, camera) < np.inf:
-            self._water.draw()
+            self._water.draw(ripples)
         self._pools.draw(planes, camera)
         self._halos.draw(view)
         target.depth_mask = True

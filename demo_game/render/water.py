@@ -10,9 +10,11 @@ from demo_game.place import Place
 from demo_game.place.ground_mesh import pond_mesh
 
 from . import geometry
+from .environment import Ripples
 from .frame_block import FrameBlock
 from .programs import compile_program, release_all, set_matrix, set_uniforms
 
+RIPPLE_UNIT = 5
 POOL_RADIUS = 9.0  # m
 UNITS = {"detail_map": 1, "sky_map": 3}
 
@@ -24,7 +26,7 @@ class Water:
         self.ctx, self.level = ctx, place.pond.level
         self.program = compile_program(ctx, "water.vert", "water.frag")
         block.attach(self.program)
-        set_uniforms(self.program, **UNITS)
+        set_uniforms(self.program, **UNITS, ripple_map=UNITS["detail_map"])
         vertices, indices = pond_mesh(place.terrain)
         self._vertices = ctx.buffer(vertices.tobytes())
         self._indices = ctx.buffer(indices.tobytes())
@@ -39,8 +41,12 @@ class Water:
             return float("inf")
         return float(geometry.box_distance(camera, self._low, self._high)[0])
 
-    def draw(self) -> None:
-        """Draw it."""
+    def draw(self, ripples: Ripples | None = None) -> None:
+        """Draw it; without ripples it lies still."""
+        if ripples is not None:
+            ripples.use(self.program, RIPPLE_UNIT)
+        else:
+            self.program["ripple_scale"] = (0.0, 0.0, 0.0, 0.0)
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
         self.ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
         self._array.render()

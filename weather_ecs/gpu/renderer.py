@@ -8,22 +8,27 @@ import moderngl
 import numpy as np
 
 from weather_ecs.errors import ContextError, InvalidValueError
-from weather_ecs.frame import ViewData
+from weather_ecs.frame import GaugeReading, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.depth import DepthCopy
+from weather_ecs.gpu.gauge_pass import GaugePass
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
-from weather_ecs.gpu.heightmap import Heightmap, fall_speed_of
+from weather_ecs.gpu.heightmap import Heightmap
 from weather_ecs.gpu.impact_count import ImpactCount
 from weather_ecs.gpu.occluder_meshes import OccluderMeshes
 from weather_ecs.gpu.rain_blocks import RAIN_VIEW, SHELTER
 from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass
+from weather_ecs.gpu.ripple_pass import RipplePass
 from weather_ecs.gpu.shader_loader import ShaderLoader
 from weather_ecs.gpu.splash_pass import SplashPass
 from weather_ecs.gpu.timer import GpuTimer, PrimitiveCounter
 from weather_ecs.gpu.veil_pass import VeilPass
 from weather_ecs.gpu.view_block import fill_view
+from weather_ecs.gpu.wetness_map import WetnessMap
+from weather_ecs.gpu.wetness_pass import WetnessPass
+from weather_ecs.physics.footprint import fall_speed_over
 
 
 class Settings(Protocol):
@@ -72,6 +77,9 @@ class Renderer:
         self._rain = RainPass(ctx, self._shaders, backend=self.backend, seed=seed)
         self._splash = SplashPass(ctx, gl, self._shaders, self._rain)
         self._impacts = ImpactCount(ctx, gl, self._shaders, self._rain)
+        self._ripples = RipplePass(ctx, self._shaders, self._rain)
+        self._gauges = GaugePass(ctx, self._shaders, self._rain)
+        self._wetness = WetnessPass(ctx, gl, self._shaders)
         self._veil = VeilPass(ctx, self._shaders)
         self._view_block = BlockBuffer(ctx, RAIN_VIEW)
         self._shelter_block = BlockBuffer(ctx, SHELTER)
@@ -79,6 +87,7 @@ class Renderer:
         # Stands for the depth of a host that has none: nothing in the way anywhere.
         self._no_depth = ctx.texture((1, 1), 1, data=np.ones(1, np.float32).tobytes(), dtype="f4")
         self._meshes = OccluderMeshes(ctx, self._shaders)
+        self._scene_depth: moderngl.Texture | None = None  # as copied in this draw
         self._maps: dict[int, Heightmap] = {}
         self._timer = GpuTimer(gl)
         self._counter = PrimitiveCounter(gl)
@@ -87,6 +96,20 @@ class Renderer:
     def rain(self) -> RainPass:
         """The drops; for tests and benchmarks."""
         return self._rain
+
+    @property
+    def ripples(self) -> RipplePass:
+        """The rings on water."""
+        return self._ripples
+
+    def wetness(self, key: int = 0) -> WetnessMap:
+        """The water around an observer, for a game's own shaders."""
+        with self._guard:
+            return self._wetness.map(key)
+
+    def take_readings(self) -> list[GaugeReading]:
+        """What the rain gauges have counted, as far as it has come back since the last call."""
+        return self._gauges.take()
 
     def heightmap(self, key: int = 0) -> Heightmap | None:
         """The collision heightmap of an observer, if there is one yet."""
@@ -100,7 +123,8 @@ class Renderer:
         if self._released:
             raise ContextError("the renderer was released")
         self.stats = {"containers": len(view.containers)}
-        if not view.containers and not view.veils:
+        wets = self._wetness.active(view)
+        if not (view.containers or view.veils or view.frame.ripples or wets):
             return
         with self._guard as guard:
             viewport = guard.viewport
@@ -116,31 +140,43 @@ class Renderer:
             fill_view(self._view_block, view, viewport)
             self._view_block.upload()
             self._view_block.bind()
-            sheltered = self._capture(view, settings)
+            self._scene_depth = None
+            sheltered = self._capture(view, settings, wets)
             self.stats["drops_moved"] = self._rain.update(view, sheltered)
             if sheltered:
                 self._impacts.count(view)
+            # Half as many cells on a side as the map of what the rain hits has texels.
+            self._ripples.update(view, sheltered, settings.heightmap_size // 2)
+            self._gauges.update(view, sheltered)
+            if wets:
+                self._wetness.update(view, self._maps.get(view.key) if sheltered else None)
             guard.bind_framebuffer()
+            self._draw_ripples(view)
             self._draw_veils(view)
             self._draw_splashes(view, sheltered)
             self._draw_drops(view)
             self._timer.end()
 
-    def _capture(self, view: ViewData, settings: Settings) -> bool:
+    def _capture(self, view: ViewData, settings: Settings, wets: bool) -> bool:
         """Brings the collision heightmap up to date; False where nothing shelters."""
         occluders = view.frame.occluders
-        if not occluders or not view.containers:
+        if not occluders or not (view.containers or wets):
             return False
         heightmap = self._maps.get(view.key)
-        if heightmap is None or heightmap.size != settings.heightmap_size:
+        look = view.frame.heightmap
+        size = 4 * round(settings.heightmap_size * look.resolution / 4.0)
+        if heightmap is None or heightmap.size != size:
             if heightmap is not None:
                 heightmap.release()
-            size = settings.heightmap_size
             heightmap = Heightmap(self._ctx, self._guard, self._meshes, size)
             self._maps[view.key] = heightmap
-        rate = max(float(rate) for rate in view.frame.areas["rain_rate"])
         wind, reach = view.frame.wind, view.frame.look.reach
-        if heightmap.capture(occluders, view.position, reach, wind, fall_speed_of(rate)):
+        speed = fall_speed_over(view.frame.areas["rain_rate"])
+        if not view.containers and heightmap.footprint is not None:
+            # Nothing falls just now: the map stays as it was, for what is still wet.
+            (x, z), speed = heightmap.footprint.slope, 1.0
+            wind = (x, 0.0, z)
+        if heightmap.capture(occluders, view.position, reach, wind, speed, look.extent):
             self._meshes.keep(occluders)
         heightmap.fill(self._shelter_block)
         self._shelter_block.upload()
@@ -148,10 +184,24 @@ class Renderer:
         heightmap.texture.use(SHELTER_UNIT)
         return True
 
+    def _copy_depth(self) -> moderngl.Texture:
+        """The scene's depth, copied once in a draw: nothing here writes depth."""
+        if self._scene_depth is None:
+            self._scene_depth = self._depth.copy(self._guard) or self._no_depth
+        return self._scene_depth
+
+    def _draw_ripples(self, view: ViewData) -> None:
+        if not self._ripples.draws:
+            return
+        depth = self._copy_depth()
+        self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
+        self._gl.glDepthMask(0)
+        self._ripples.draw(view, depth)
+
     def _draw_veils(self, view: ViewData) -> None:
         if not view.veils:
             return
-        depth = self._depth.copy(self._guard) or self._no_depth
+        depth = self._copy_depth()
         ctx, gl = self._ctx, self._gl
         ctx.enable_only(moderngl.BLEND | moderngl.CULL_FACE)
         # The far sides: they are in the picture wherever the camera stands.
@@ -178,10 +228,13 @@ class Renderer:
         self._counter.end()
 
     def forget(self, key: int) -> None:
-        """Give back what belongs to an observer who is gone; its drops go by themselves."""
+        """Give back what belongs to an observer who is gone."""
         heightmap = self._maps.pop(key, None)
-        if heightmap is not None:
-            with self._guard:
+        with self._guard:
+            self._rain.forget(key)
+            self._ripples.forget(key)
+            self._wetness.forget(key)
+            if heightmap is not None:
                 heightmap.release()
 
     def release(self) -> None:
@@ -191,8 +244,8 @@ class Renderer:
         self._released = True
         things: list[Releasable] = [
             self._counter, self._timer, *self._maps.values(), self._meshes, self._no_depth,
-            self._depth, self._shelter_block, self._view_block, self._veil, self._impacts,
-            self._splash, self._rain, self._shaders,
+            self._depth, self._shelter_block, self._view_block, self._veil, self._ripples,
+            self._impacts, self._splash, self._wetness, self._gauges, self._rain, self._shaders,
         ]  # fmt: skip
         with self._guard:
             for thing in things:
