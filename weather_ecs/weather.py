@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
     from weather_ecs.gpu.renderer import Renderer
     from weather_ecs.gpu.ripple_map import RippleMap
+    from weather_ecs.gpu.wetness_map import WetnessMap
 
 BACKENDS = ("auto", "compute", "feedback")
 
@@ -206,6 +207,18 @@ class Weather:
         if self._renderer is None or data is None:
             return None
         return self._renderer.ripples.map(self._keys.key(observer), data)
+
+    def wetness(self, *, observer: Observer | None = None) -> WetnessMap:
+        """The water on the ground, for a game's own shaders: see `wetness.glsl`.
+
+        The same object for good; what it binds is what the last draw left. Raises ContextError
+        without OpenGL.
+        """
+        self._check_open()
+        if self._window is None and self._context is None:
+            raise ContextError("this weather was made with neither window nor context")
+        with _current(self._window):
+            return self._ready_renderer().wetness(self._keys.key(observer))
 
     def _draw(self, camera: Camera, observer: Observer | None, started: float) -> None:
         frame = self._frame()

@@ -123,7 +123,8 @@ class Renderer:
         if self._released:
             raise ContextError("the renderer was released")
         self.stats = {"containers": len(view.containers)}
-        wets = self._wetness.active(view)
+        wet_map = self._wetness.needs_map(view)
+        wets = wet_map or self._wetness.needs_update(view)
         if not (view.containers or view.veils or view.frame.ripples or wets):
             return
         with self._guard as guard:
@@ -141,7 +142,7 @@ class Renderer:
             self._view_block.upload()
             self._view_block.bind()
             self._scene_depth = None
-            sheltered = self._capture(view, settings, wets)
+            sheltered = self._capture(view, settings, wet_map)
             self.stats["drops_moved"] = self._rain.update(view, sheltered)
             if sheltered:
                 self._impacts.count(view)
@@ -157,10 +158,10 @@ class Renderer:
             self._draw_drops(view)
             self._timer.end()
 
-    def _capture(self, view: ViewData, settings: Settings, wets: bool) -> bool:
+    def _capture(self, view: ViewData, settings: Settings, wet: bool) -> bool:
         """Brings the collision heightmap up to date; False where nothing shelters."""
         occluders = view.frame.occluders
-        if not occluders or not (view.containers or wets):
+        if not occluders or not (view.containers or wet):
             return False
         heightmap = self._maps.get(view.key)
         look = view.frame.heightmap
@@ -172,8 +173,8 @@ class Renderer:
             self._maps[view.key] = heightmap
         wind, reach = view.frame.wind, view.frame.look.reach
         speed = fall_speed_over(view.frame.areas["rain_rate"])
-        if not view.containers and heightmap.footprint is not None:
-            # Nothing falls just now: the map stays as it was, for what is still wet.
+        if heightmap.footprint is not None and not view.frame.areas["rain_rate"].any():
+            # Nothing falls: the map stays as it was, for what is still wet.
             (x, z), speed = heightmap.footprint.slope, 1.0
             wind = (x, 0.0, z)
         if heightmap.capture(occluders, view.position, reach, wind, speed, look.extent):

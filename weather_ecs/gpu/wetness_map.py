@@ -1,0 +1,62 @@
+"""`WetnessMap`: what a game's own shader needs to know how wet its surfaces are."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import moderngl
+
+from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+
+# Spelled out once more in shaders/wetness.glsl, which games paste into their own shaders.
+WEATHER_WETNESS = UniformBlock(
+    "WeatherWetness",
+    ("weather_wet_frame", "vec4"),  # middle, x and z at height 0, m; 1 / side in 1/m
+    ("weather_wet_fall", "vec4"),  # horizontal m per m of fall, x and z; 1 where there is a map
+    ("weather_wet_far_place", "vec4"),  # middle, x and z, m; 1 / side in 1/m
+)
+FIRST_UNIT = 14  # of two; at least 16 are there in every stage
+
+
+class WetnessMap:
+    """The water around one observer as the last draw left it; the same object for good.
+
+    For programs whose shader includes `wetness.glsl`. Before the first draw everything is dry.
+    """
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._block = BlockBuffer(ctx, WEATHER_WETNESS)
+        self._dry = ctx.texture((1, 1), 2, bytes(8), dtype="f4")
+        self.texture = self.far = self._dry
+        self.set((0.0, 0.0, 1.0), None, (0.0, 0.0, 1.0))
+
+    def set(
+        self,
+        frame: tuple[float, float, float],
+        fall: tuple[float, float] | None,
+        far: tuple[float, float, float],
+    ) -> None:
+        """Places of map and far field, (x, z, side) in m, and the fall; None: there is no map."""
+        data = self._block.data
+        data["weather_wet_frame"] = (*frame[:2], 1.0 / frame[2], 0.0)
+        data["weather_wet_fall"] = (0.0, 0.0, 0.0, 0.0) if fall is None else (*fall, 1.0, 0.0)
+        data["weather_wet_far_place"] = (*far[:2], 1.0 / far[2], 0.0)
+        self._block.upload()
+
+    def use(self, program: Any, unit: int = FIRST_UNIT) -> None:
+        """Bind the textures to two units from `unit` on, the block to the binding it has, and
+        point the program's uniforms at them. What the shader does not use is left out.
+        """
+        self.texture.use(unit)
+        self.far.use(unit + 1)
+        for name, number in (("weather_wet_map", unit), ("weather_wet_far", unit + 1)):
+            if name in program:
+                program[name] = number
+        if "WeatherWetness" in program:
+            program["WeatherWetness"].binding = self._block.binding
+            self._block.bind()
+
+    def release(self) -> None:
+        """Give everything back; twice does no harm."""
+        self._dry.release()
+        self._block.release()

@@ -1,0 +1,324 @@
+"""The wetness map: the water on what rain meets first, around every observer.
+
+Bands of rows are brought up to date in turn, all of them within a second; all at once where the map
+moves with its observer, the wind turns or the map begins. The law has a closed form: bands may wait.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.frame import ViewData
+from weather_ecs.gpu import gl_enums as e
+from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+from weather_ecs.gpu.gl import GL
+from weather_ecs.gpu.heightmap import Heightmap
+from weather_ecs.gpu.rain_pass import SHELTER_UNIT
+from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.gpu.wetness_map import WetnessMap
+from weather_ecs.physics.wet_field import open_water
+from weather_ecs.physics.wet_map import BANDS, RINGS, MapPlace, place_over
+
+MAX_AREAS = 16
+FAR_TEXELS, FAR_TEXEL = 64, 8.0  # of the field beyond the map; m
+FAR_HALF = 0.5 * FAR_TEXELS * FAR_TEXEL
+ROUND = 1.0  # s in which every band has its turn
+LONGEST = 5.0  # s without an update, after which the map begins anew
+DRY_AFTER = 1800.0  # s without rain after which nothing is left to dry
+STATIC_UNIT, BEFORE_UNIT, FAR_UNIT = 2, 3, 4
+
+STEP = UniformBlock(
+    "WetStep",
+    ("wet_frame", "vec4"),  # middle, x and z at height 0, a texel, m; texels on a side
+    ("wet_old_frame", "vec4"),  # of the map before; 0 texels: there is none
+    ("wet_old_fall", "vec4"),
+    ("wet_shelter", "vec4"),  # the heightmap's low corner, m; 1 / its texel
+    ("wet_heights", "vec4"),  # m, of the heightmap's top
+    ("wet_far_place", "vec4"),  # middle of the far field, m; 1 / its side
+    ("wet_ages", "vec4", BANDS // 4),  # s since each band's last update
+    ("wet_area_axis", "vec4", MAX_AREAS),
+    ("wet_area_shape", "vec4", MAX_AREAS),
+    ("wet_area_rate", "vec4", MAX_AREAS),  # mm/h
+    ("wet_areas", "int"),
+    ("wet_bands", "int"),  # rows in a band
+    ("wet_rings", "ivec2"),  # texels, radii in which a hollow is looked for
+)
+KEY = ProgramKey(vertex="fullscreen.vert", fragment="wetness_step.frag")
+
+
+@dataclass(slots=True)
+class _Observed:
+    """What belongs to one observer."""
+
+    map: WetnessMap
+    far: moderngl.Texture
+    textures: list[moderngl.Texture] = field(default_factory=list)
+    targets: list[moderngl.Framebuffer] = field(default_factory=list)
+    current: int = 0
+    place: MapPlace | None = None
+    times: NDArray[np.float64] = field(default_factory=lambda: np.zeros(BANDS))
+    band: int = 0
+    time: float = -math.inf  # s, of the last update
+    number: int = 0  # of the ground the map began with
+    wet_until: float = -math.inf
+    far_at: tuple[int, int, tuple[float, float]] | None = None  # ground, tick, middle
+    far_dry: bool = True
+
+
+class WetnessPass:
+    """Keeps a `WetnessMap` for every observer that asks for one or that it rains on."""
+
+    def __init__(self, ctx: moderngl.Context, gl: GL, shaders: ShaderLoader) -> None:
+        self._ctx = ctx
+        self._gl = gl
+        self._shaders = shaders
+        self._observed: dict[int, _Observed] = {}
+        self._program: moderngl.Program | None = None
+
+    def map(self, observer: int) -> WetnessMap:
+        """What a game's shaders read for an observer."""
+        return self._seen(observer).map
+
+    def needs_map(self, view: ViewData) -> bool:
+        """Whether there is water on the ground around an observer, or some to come."""
+        seen = self._observed.get(view.key)
+        if seen is not None and view.frame.time < seen.wet_until:
+            return True
+        reach = 1.5 * view.frame.heightmap.extent * view.frame.look.reach
+        return rains_within(view, reach) or wet_within(view, reach)
+
+    def needs_update(self, view: ViewData) -> bool:
+        """Whether anything here has to be done for a view; with `needs_map`, more."""
+        seen = self._observed.get(view.key)
+        at = seen.far_at if seen is not None else None
+        wet = view.frame.wetness
+        if wet is not None and at is not None and at[:2] == (wet.number, wet.ticks):
+            return False
+        wets = rains_within(view, 1.5 * FAR_HALF) or wet_within(view, 1.5 * FAR_HALF)
+        return wets or (seen is not None and not seen.far_dry)
+
+    def update(self, view: ViewData, heightmap: Heightmap | None) -> None:
+        """Bring a part of the map up to date; `heightmap` is captured, its block bound.
+
+        Changes framebuffer, viewport and capabilities: the caller restores them.
+        """
+        seen, frame = self._seen(view.key), view.frame
+        reach = 1.5 * frame.heightmap.extent * frame.look.reach
+        if rains_within(view, reach) or wet_within(view, reach):
+            seen.wet_until = frame.time + DRY_AFTER
+        self._update_far(seen, view)
+        if heightmap is None or heightmap.footprint is None:
+            seen.place = None
+        else:
+            self._update_map(seen, view, heightmap)
+        self._publish(seen)
+
+    def _update_map(self, seen: _Observed, view: ViewData, heightmap: Heightmap) -> None:
+        frame = view.frame
+        assert heightmap.footprint is not None
+        place = place_over(heightmap.footprint, heightmap.size)
+        number = frame.wetness.number if frame.wetness is not None else 0
+        fresh = seen.place is None or seen.place.size != place.size or number != seen.number
+        if fresh or not 0.0 <= frame.time - seen.time <= LONGEST:
+            self._resize(seen, place.size)
+            seen.place, seen.number = None, number
+        elif place == seen.place and frame.time == seen.time:
+            return
+        if self._program is None:
+            self._make_program()
+        moves = place != seen.place
+        self._fill(seen, view, heightmap, place)
+        heightmap.static_texture.use(STATIC_UNIT)
+        heightmap.texture.use(SHELTER_UNIT)
+        seen.far.use(FAR_UNIT)
+        self._ctx.enable_only(moderngl.NOTHING)
+        if moves:
+            self._render(seen, 1 - seen.current, 0, place.size)
+            seen.current = 1 - seen.current
+            seen.times[:] = frame.time
+        else:
+            bands = -(-place.size // place.rows)
+            due = math.ceil(bands * min((frame.time - seen.time) / ROUND, 1.0))
+            for _ in range(due):
+                first = seen.band * place.rows
+                rows = min(place.rows, place.size - first)
+                self._copy(seen, first, rows)
+                self._render(seen, seen.current, first, rows)
+                seen.times[seen.band] = frame.time
+                seen.band = (seen.band + 1) % bands
+        heightmap.texture.use(SHELTER_UNIT)
+        seen.place, seen.time = place, frame.time
+
+    def _render(self, seen: _Observed, into: int, first: int, rows: int) -> None:
+        target = seen.targets[into]
+        seen.textures[1 - into].use(BEFORE_UNIT)
+        target.use()
+        target.viewport = (0, first, target.width, rows)
+        self._array.render(moderngl.TRIANGLES, 3)
+
+    def _copy(self, seen: _Observed, first: int, rows: int) -> None:
+        """A band of the current texture into the other, from which it is then read."""
+        gl, width = self._gl, seen.targets[0].width
+        gl.glBindFramebuffer(e.READ_FRAMEBUFFER, seen.targets[seen.current].glo)
+        gl.glBindFramebuffer(e.DRAW_FRAMEBUFFER, seen.targets[1 - seen.current].glo)
+        box = (0, first, width, first + rows)
+        gl.glBlitFramebuffer(*box, *box, e.COLOR_BUFFER_BIT, e.NEAREST)
+
+    def _fill(self, seen: _Observed, view: ViewData, heightmap: Heightmap, place: MapPlace) -> None:
+        block, frame, footprint = self._block, view.frame, heightmap.footprint
+        assert footprint is not None
+        data, old, texel = block.data, seen.place, 2.0 * footprint.half / heightmap.size
+        data["wet_frame"] = (*place.center, place.texel, place.size)
+        data["wet_old_frame"] = (*old.center, old.texel, old.size) if old else (0.0, 0.0, 1.0, 0.0)
+        data["wet_old_fall"] = (*(old.slope if old else place.slope), 0.0, 0.0)
+        low = [c - footprint.half for c in footprint.center]
+        data["wet_shelter"] = (*low, 1.0 / texel, 0.0)
+        data["wet_heights"] = (footprint.top, 0.0, 0.0, 0.0)
+        assert seen.far_at is not None
+        data["wet_far_place"] = (*seen.far_at[2], 0.5 / FAR_HALF, 0.0)
+        block["wet_ages"].reshape(-1)[:] = np.maximum(frame.time - seen.times, 0.0)
+        data["wet_bands"] = place.rows
+        data["wet_rings"] = [max(round(radius / texel), 1) for radius in RINGS]
+        areas = frame.areas[frame.areas["rain_rate"] > 0.0]
+        if len(areas) > MAX_AREAS:
+            away = np.linalg.norm(areas["center"] - np.array(view.position)[[0, 2]], axis=1)
+            areas = areas[np.argsort(away - areas["radii"][:, 0], kind="stable")[:MAX_AREAS]]
+        count = data["wet_areas"] = len(areas)
+        heading = areas["heading"]
+        block["wet_area_axis"][:count, :2] = areas["center"]
+        block["wet_area_axis"][:count, 2] = np.cos(heading)
+        block["wet_area_axis"][:count, 3] = np.sin(heading)
+        block["wet_area_shape"][:count, :2] = areas["radii"]
+        block["wet_area_shape"][:count, 2] = np.minimum(areas["soft_edge"], areas["radii"][:, 1])
+        block["wet_area_shape"][:count, 3] = areas["ceiling"]
+        block["wet_area_rate"][:count, 0] = areas["rain_rate"]
+        block.upload()
+        block.bind()
+
+    def _update_far(self, seen: _Observed, view: ViewData) -> None:
+        """The field beyond the map, from the weather's own coarse one: once a second."""
+        wet = view.frame.wetness
+        if wet is None:
+            return
+        x, _, z = view.position
+        if seen.far_at is not None:
+            number, ticks, (u, w) = seen.far_at
+            near = max(abs(x - u), abs(z - w)) < 0.25 * FAR_HALF
+            if near and number == wet.number and ticks == wet.ticks:
+                return
+            middle = (u, w) if near else _snapped(x, z)
+        else:
+            middle = _snapped(x, z)
+        across = (np.arange(FAR_TEXELS) + 0.5) * FAR_TEXEL - FAR_HALF
+        grid = np.meshgrid(middle[0] + across, middle[1] + across)
+        points = np.stack(grid, axis=-1).reshape(-1, 2)
+        levels = tuple([(tiles.cell, tiles.places, tiles.water) for tiles in wet.levels])
+        rest = max(view.frame.time - wet.ticks, 0.0)
+        water = open_water(points, levels, wet.waited, wet.rows, rest, view.frame.areas)
+        seen.far.write(water.astype(np.float32).tobytes())
+        seen.far_at = (wet.number, wet.ticks, middle)
+        seen.far_dry = not water.any()
+
+    def _publish(self, seen: _Observed) -> None:
+        far = seen.far_at[2] if seen.far_at is not None else (0.0, 0.0)
+        place = seen.place
+        if place is None:
+            seen.map.set((0.0, 0.0, 1.0), None, (*far, 2.0 * FAR_HALF))
+        else:
+            side = place.texel * place.size
+            seen.map.set((*place.center, side), place.slope, (*far, 2.0 * FAR_HALF))
+            seen.map.texture = seen.textures[seen.current]
+        seen.map.far = seen.far
+
+    def _seen(self, observer: int) -> _Observed:
+        seen = self._observed.get(observer)
+        if seen is None:
+            far = self._ctx.texture((FAR_TEXELS,) * 2, 1, bytes(4 * FAR_TEXELS**2), dtype="f4")
+            _smooth(far)
+            seen = self._observed[observer] = _Observed(WetnessMap(self._ctx), far)
+        return seen
+
+    def _make_program(self) -> None:
+        self._program = program = self._shaders.program(KEY)
+        units = {
+            "shelter_map": STATIC_UNIT,
+            "wet_cover": SHELTER_UNIT,
+            "wet_before": BEFORE_UNIT,
+            "wet_far": FAR_UNIT,
+        }
+        for name, unit in units.items():
+            program[name] = unit
+        self._array = self._ctx.vertex_array(program, [])
+        self._block = BlockBuffer(self._ctx, STEP)
+
+    def _resize(self, seen: _Observed, size: int) -> None:
+        if seen.textures and seen.textures[0].width == size:
+            return
+        _drop_map(seen)
+        for _ in range(2):
+            texture = self._ctx.texture((size, size), 2, dtype="f4")
+            _smooth(texture)
+            seen.textures.append(texture)
+            seen.targets.append(self._ctx.framebuffer([texture]))
+
+    def forget(self, observer: int) -> None:
+        """Give back what belongs to an observer who is gone."""
+        seen = self._observed.pop(observer, None)
+        if seen is not None:
+            _drop_map(seen)
+            seen.far.release()
+            seen.map.release()
+
+    def release(self) -> None:
+        """Give everything back; twice does no harm."""
+        for observer in list(self._observed):
+            self.forget(observer)
+        if self._program is not None:
+            self._array.release()
+            self._block.release()
+            self._program = None
+
+
+def _drop_map(seen: _Observed) -> None:
+    for target in seen.targets:
+        target.release()
+    for texture in seen.textures:
+        texture.release()
+    seen.targets.clear()
+    seen.textures.clear()
+    seen.place = None
+
+
+def _smooth(texture: moderngl.Texture) -> None:
+    texture.filter = moderngl.LINEAR, moderngl.LINEAR
+    texture.repeat_x = texture.repeat_y = False
+
+
+def _snapped(x: float, z: float) -> tuple[float, float]:
+    return round(x / FAR_TEXEL) * FAR_TEXEL, round(z / FAR_TEXEL) * FAR_TEXEL
+
+
+def rains_within(view: ViewData, reach: float) -> bool:
+    """Whether an area may rain on what lies within `reach` m."""
+    x, _, z = view.position
+    for _, (cx, cz), (a, _), _, rate, *_ in view.frame.areas.tolist():
+        if rate > 0.0 and math.hypot(cx - x, cz - z) < a + reach:
+            return True
+    return False
+
+
+def wet_within(view: ViewData, reach: float) -> bool:
+    """Whether the ground is wet within `reach` m, in the weather's own coarse field."""
+    wet = view.frame.wetness
+    here = np.array((view.position[0], view.position[2]))
+    for tiles in wet.levels if wet is not None else ():
+        side = 8.0 * tiles.cell
+        away = np.abs((tiles.places + 0.5) * side - here).max(axis=1)
+        if (away < reach + 0.5 * side).any():
+            return True
+    return False

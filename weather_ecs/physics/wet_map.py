@@ -1,0 +1,141 @@
+"""The wetness map: where it lies, and the oracle of `shaders/wetness_step.frag`, in float64."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.physics.footprint import Footprint
+from weather_ecs.physics.wetness import (
+    CATCHMENT,
+    DEEPEST,
+    MM_PER_S,
+    film_capacity,
+    settle,
+)
+
+BANDS = 32  # parts of the map that are brought up to date in turn
+RINGS = (0.6, 2.0)  # m, radii in which a hollow is looked for
+EDGE = 0.6  # m, as in shaders/shelter.glsl
+SAME = 0.5  # m between heights of what may be one surface
+COVERED = 0.1  # m by which a moving thing stands over it
+NOTHING = -1e9  # m, height of no surface
+
+
+@dataclass(frozen=True, slots=True)
+class MapPlace:
+    """Where a wetness map lies; its texels are two by two of the heightmap's."""
+
+    center: tuple[float, float]  # m, (x, z) carried along the fall to height 0
+    texel: float  # m
+    size: int  # texels on a side
+    slope: tuple[float, float]  # horizontal metres per metre of fall
+
+    @property
+    def rows(self) -> int:
+        """Rows in a band."""
+        return -(-self.size // BANDS)
+
+
+def place_over(footprint: Footprint, heightmap_size: int) -> MapPlace:
+    """The wetness map over a heightmap: a texel smaller on every side, on a grid of its own.
+
+    Its middle is a whole number of its texels, so that it shows the same places of the world in
+    the same way wherever the heightmap lies.
+    """
+    texel = 4.0 * footprint.half / heightmap_size
+    x, z = footprint.center
+    center = round(x / texel) * texel, round(z / texel) * texel
+    return MapPlace(center, texel, heightmap_size // 2 - 2, footprint.slope)
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """What rain meets first at every texel of a wetness map; arrays (n, n), rows along z."""
+
+    position: NDArray[np.float64]  # (n, n, 3), m
+    known: NDArray[np.bool_]
+    facing: NDArray[np.float64]  # rain on its own square metre over that on a level one
+    capacity: NDArray[np.float64]  # mm
+    gathers: NDArray[np.float64]  # times its own rain that comes to it
+    covered: NDArray[np.bool_]  # by something that moves
+
+
+def surface(place: MapPlace, footprint: Footprint, still: NDArray, cover: NDArray) -> Surface:
+    """The surface under a map, from the heightmap's depths without and with what moves."""
+    n, m = place.size, len(still)
+    texel = 2.0 * footprint.half / m
+    at = (np.arange(n) + 0.5 - 0.5 * n) * place.texel
+    u, w = place.center[0] + at, place.center[1] + at
+    i = np.floor((u - footprint.center[0] + footprint.half) / texel + 0.5).astype(int)
+    j = np.floor((w - footprint.center[1] + footprint.half) / texel + 0.5).astype(int)
+    span = footprint.top - footprint.bottom
+    heights = np.where(still < 1.0, footprint.top - still.astype(float) * span, NOTHING)
+
+    def near(di: int, dj: int) -> NDArray[np.float64]:
+        h = heights[np.clip(j + dj, 0, m - 1)[:, None], np.clip(i + di, 0, m - 1)[None, :]]
+        return np.where(np.abs(h - y) < EDGE, h, y)
+
+    y = heights[np.clip(j, 0, m - 1)[:, None], np.clip(i, 0, m - 1)[None, :]]
+    top = footprint.top - cover[np.clip(j, 0, m - 1)[:, None], np.clip(i, 0, m - 1)[None, :]] * span
+    sx, sz = footprint.slope
+    rise_x = (near(1, 0) - near(-1, 0)) / (2.0 * texel)
+    rise_z = (near(0, 1) - near(0, -1)) / (2.0 * texel)
+    scale = 1.0 / np.maximum(1.0 - rise_x * sx - rise_z * sz, 0.2)
+    slope_x, slope_z = rise_x * scale, rise_z * scale
+    up = 1.0 / np.sqrt(1.0 + slope_x**2 + slope_z**2)
+    deep = np.zeros_like(y)
+    for radius in RINGS:
+        s = max(round(radius / texel), 1)
+        d = max(int(0.7071 * s + 0.5), 1)
+        ring = [(s, 0), (-s, 0), (0, s), (0, -s), (d, d), (-d, -d), (d, -d), (-d, d)]
+        mean = np.mean([near(*step) for step in ring], axis=0)
+        deep = np.maximum(deep, np.clip((mean - y) * 1000.0, 0.0, DEEPEST))
+    share = np.clip((deep - 1.0) / 19.0, 0.0, 1.0)
+    position = np.stack([u[None, :] - y * sx, y, w[:, None] - y * sz], axis=-1)
+    return Surface(
+        position,
+        y > NOTHING,
+        np.maximum(1.0 + slope_x * sx + slope_z * sz, 0.0) * up,
+        film_capacity(up) + deep,
+        1.0 + CATCHMENT * share * share * (3.0 - 2.0 * share),
+        top - y >= COVERED,
+    )
+
+
+def carried(
+    found: Surface,
+    open_water: NDArray,
+    before: NDArray | None,
+    old: MapPlace | None,
+    ages: NDArray,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(mm that lay there before, s since then), from the map before (n, n, 2) mm and height."""
+    water, seconds = open_water.astype(float), np.zeros_like(open_water, dtype=float)
+    if before is None or old is None:
+        return water, seconds
+    x, y, z = np.moveaxis(found.position, -1, 0)
+    i = np.floor((x + y * old.slope[0] - old.center[0]) / old.texel + 0.5 * old.size).astype(int)
+    j = np.floor((z + y * old.slope[1] - old.center[1]) / old.texel + 0.5 * old.size).astype(int)
+    inside = found.known & (i >= 0) & (j >= 0) & (i < old.size) & (j < old.size)
+    i, j = np.clip(i, 0, old.size - 1), np.clip(j, 0, old.size - 1)
+    was = before[j, i]
+    same = inside & (np.abs(was[..., 1] - y) < SAME)
+    hidden = inside & ~same & (was[..., 1] > y)
+    water = np.where(same, was[..., 0], np.where(hidden, 0.0, water))
+    return water, np.where(same, ages[j // old.rows], 0.0)
+
+
+def step(
+    found: Surface, water: NDArray, seconds: NDArray, rain_rate: NDArray
+) -> NDArray[np.float64]:
+    """mm after the rain (mm/h) of those seconds; 0 where nothing is known."""
+    inflow = np.where(found.covered, 0.0, rain_rate) * MM_PER_S * found.facing * found.gathers
+    result = np.zeros_like(water)
+    for age in np.unique(seconds):
+        now = found.known & (seconds == age)
+        result[now] = settle(water[now], inflow[now], found.capacity[now], math.fabs(float(age)))
+    return result

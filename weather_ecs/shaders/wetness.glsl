@@ -1,0 +1,54 @@
+// The weather's water for a game's own shaders; see docs/wetness.md. `WetnessMap.use(program)` binds
+// what is declared here. After a game's own #version line; GLSL 3.30 or newer.
+layout(std140) uniform WeatherWetness
+{
+    vec4 weather_wet_frame;
+    vec4 weather_wet_fall;
+    vec4 weather_wet_far_place;
+};
+uniform sampler2D weather_wet_map;
+uniform sampler2D weather_wet_far;
+
+// mm of water on level ground at p under the open sky, from a few metres' cells; to 250 m off.
+float weather_open_wetness(vec3 p)
+{
+    vec2 uv = (p.xz - weather_wet_far_place.xy) * weather_wet_far_place.z;
+    vec2 inside = clamp(8.0 - 16.0 * abs(uv), 0.0, 1.0);
+    return texture(weather_wet_far, uv + 0.5).r * inside.x * inside.y;
+}
+
+// mm of water at p on what rain meets there; 0 under cover, the open sky's where the map ends.
+float weather_water(vec3 p)
+{
+    vec2 uv = (p.xz + p.y * weather_wet_fall.xy - weather_wet_frame.xy) * weather_wet_frame.z;
+    if (weather_wet_fall.z > 0.5 && max(abs(uv.x), abs(uv.y)) < 0.5) {
+        vec2 here = texture(weather_wet_map, uv + 0.5).rg;
+        float below = here.g - p.y;
+        // Under cover with a soft edge; what stands above the map's surface is not in it.
+        if (below > -0.6) return here.r * (1.0 - smoothstep(0.35, 0.8, below));
+    }
+    return weather_open_wetness(p);
+}
+
+// mm of water on a surface at p with a unit normal: less the more it is turned from the rain.
+float weather_wetness(vec3 p, vec3 normal)
+{
+    float facing = dot(normal, normalize(vec3(-weather_wet_fall.x, 1.0, -weather_wet_fall.y)));
+    return weather_water(p) * smoothstep(-0.2, 0.6, facing);
+}
+
+// 0 to 1: how much of a puddle stands at p. `relief`, mm, is the game's own fine relief over its
+// deepest hollows, which the weather knows nothing of: there the water of the film around runs
+// together, as it stands in the larger hollows of the occluders.
+float weather_puddle(vec3 p, vec3 normal, float relief)
+{
+    float water = weather_water(p);
+    float level = 6.0 * min(water, 1.0) + max(water - 1.0, 0.0);
+    return clamp(level - relief, 0.0, 1.0) * smoothstep(0.90, 0.98, normal.y);
+}
+
+// 0 to 1: how dark and glossy so much water makes a surface that can soak it up.
+float weather_damp(float water)
+{
+    return 1.0 - exp(-water / 0.12);
+}

@@ -1,0 +1,92 @@
+// One texel of the wetness map: the water on what rain meets first there, and the height of that.
+// physics/wet_map.py is its oracle. The map lies like the collision heightmap, every texel over two
+// by two of its own. What lay at the same place of the world in the map before is carried on.
+#include "wetness_law.glsl"
+#include "rain_area.glsl"
+#include "shelter.glsl"  // shelter_map is the layer of what does not move
+#include <block:WetStep>
+
+uniform sampler2D wet_cover;   // depth of all that rain can hit, what moves included
+uniform sampler2D wet_before;  // mm, m
+uniform sampler2D wet_far;     // mm on level ground in the open, from the CPU
+
+out vec2 water;  // mm; m, height of the surface, NOTHING where there is none
+
+const float NOTHING = -1e9;
+const float SAME = 0.5;     // m between heights of what may be one surface
+const float COVERED = 0.1;  // m by which a moving thing stands over it
+
+float open_water(vec2 p)
+{
+    return texture(wet_far, (p - wet_far_place.xy) * wet_far_place.z + 0.5).r;
+}
+
+// Height in m of the surface at a texel of the heightmap; NOTHING where there is none.
+float height_at(ivec2 at)
+{
+    at = clamp(at, ivec2(0), ivec2(int(shelter_size.x) - 1));
+    float depth = texelFetch(shelter_map, at, 0).r;
+    return depth < 1.0 ? wet_heights.x - depth * shelter_size.y : NOTHING;
+}
+
+// A neighbour's height; the surface's own where that is another surface.
+float near_height(ivec2 at, float y)
+{
+    float h = height_at(at);
+    return abs(h - y) < SHELTER_EDGE ? h : y;
+}
+
+// mm by which the surface lies below the mean of a ring of `step` texels around it.
+float hollow(ivec2 at, int step, float y)
+{
+    int d = max(int(0.7071 * float(step) + 0.5), 1);
+    float sum = near_height(at + ivec2(step, 0), y) + near_height(at - ivec2(step, 0), y)
+        + near_height(at + ivec2(0, step), y) + near_height(at - ivec2(0, step), y)
+        + near_height(at + ivec2(d, d), y) + near_height(at - ivec2(d, d), y)
+        + near_height(at + ivec2(d, -d), y) + near_height(at - ivec2(d, -d), y);
+    return clamp((sum * 0.125 - y) * 1000.0, 0.0, DEEPEST);
+}
+
+void main()
+{
+    vec2 texel = floor(gl_FragCoord.xy);
+    vec2 place = wet_frame.xy + (texel + 0.5 - 0.5 * wet_frame.w) * wet_frame.z;
+    ivec2 at = ivec2(floor((place - wet_shelter.xy) * wet_shelter.z + 0.5));
+    float y = height_at(at);
+    water = vec2(0.0, y);
+    if (y < -1e8) return;
+    vec3 p = vec3(place.x - y * shelter_fall.x, y, place.y - y * shelter_fall.y);
+
+    // What lay here before.
+    float w = open_water(p.xz);
+    float seconds = 0.0;
+    vec2 old = (p.xz + y * wet_old_fall.xy - wet_old_frame.xy) / wet_old_frame.z;
+    ivec2 from = ivec2(floor(old + 0.5 * wet_old_frame.w));
+    ivec2 last = ivec2(int(wet_old_frame.w) - 1);
+    if (all(greaterThanEqual(from, ivec2(0))) && all(lessThanEqual(from, last))) {
+        vec2 was = texelFetch(wet_before, from, 0).rg;
+        if (abs(was.g - y) < SAME) {
+            w = was.r;
+            int band = from.y / int(wet_bands);
+            seconds = wet_ages[band / 4][band % 4];
+        } else if (was.g > y) w = 0.0;  // it was under cover
+    }
+
+    // Rain that reaches it since, on the slope's own square metre.
+    float rate = 0.0;
+    float cover = texelFetch(wet_cover, clamp(at, ivec2(0), ivec2(int(shelter_size.x) - 1)), 0).r;
+    if (wet_heights.x - cover * shelter_size.y - y < COVERED)
+        for (int i = 0; i < wet_areas; ++i)
+            if (y < wet_area_shape[i].w)
+                rate += wet_area_rate[i].x
+                    * area_factor(p.xz, wet_area_axis[i], wet_area_shape[i]);
+    vec2 rise = vec2(near_height(at + ivec2(1, 0), y) - near_height(at - ivec2(1, 0), y),
+                     near_height(at + ivec2(0, 1), y) - near_height(at - ivec2(0, 1), y))
+        / (2.0 * shelter_size.z);
+    vec2 slope = rise / max(1.0 - dot(rise, shelter_fall.xy), 0.2);
+    float up = inversesqrt(1.0 + dot(slope, slope));
+    float facing = max(1.0 + dot(slope, shelter_fall.xy), 0.0) * up;
+    float deep = max(hollow(at, wet_rings.x, y), hollow(at, wet_rings.y, y));
+    float gathers = 1.0 + CATCHMENT * smoothstep(1.0, 20.0, deep);
+    water.r = settle(w, rate / 3600.0 * facing * gathers, film_capacity(up) + deep, seconds);
+}
