@@ -96,7 +96,7 @@ class RippleSolver:
             self._ctx.blend_func = moderngl.ONE, moderngl.ONE
             grid.draw_to_now()
             self._reader.run(view)
-            self._ctx.blend_func = moderngl.DEFAULT_BLENDING
+            self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
         self._ctx.enable_only(moderngl.NOTHING)
         grid.use_amplitudes(AMPLITUDE_UNIT)
         grid.draw_to_following()

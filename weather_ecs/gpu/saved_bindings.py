@@ -54,10 +54,13 @@ class TextureUnits:
     def restore(self) -> None:
         gl = self._gl
         bind, activate, values = gl.glBindTexture, gl.glActiveTexture, self._values[:]
+        there = gl.glIsTexture
         for unit, binds in self._binds.items():
             activate(unit)
             for target, place in binds:
-                bind(target, values[place])
+                name = values[place]
+                # The host may have bound a map of ours that was given back in the meantime.
+                bind(target, name if name == 0 or there(name) else 0)
         activate(self._active)
         if gl.glBindSamplers is not None:
             gl.glBindSamplers(0, self._count, self._samplers)
