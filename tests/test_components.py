@@ -18,10 +18,12 @@ from hypothesis import strategies as st
 import weather_ecs.components as components
 from weather_ecs.components import (
     SNAPSHOT_COMPONENTS,
+    CollisionHeightmap,
     Observer,
     PointLight,
     RainArea,
     RainContainer,
+    RainGauge,
     RippleSurface,
     SplashEmitter,
     Sun,
@@ -103,8 +105,20 @@ CASES = [
     (PointLight, "color", [(1e6, 0, 0)]),
     (PointLight, "reach", [1e-3, 1e4]),
     (Observer, "position", [(-1e7, 0, 1e7), np.arange(3)]),
+    (CollisionHeightmap, "resolution", [0.125, 4]),
+    (CollisionHeightmap, "extent", [1.05, 8]),
+    (CollisionHeightmap, "layers", [0, np.int64(2**32 - 1)]),
+    (RainGauge, "position", [(-1e7, 0, 1e7), np.arange(3)]),
+    (RainGauge, "area", [1e-9, 1e6]),
+    (RainGauge, "window", [0.1, 3600]),
 ]
 BAD = [
+    (CollisionHeightmap, "resolution", [0.12, 4.1]),
+    (CollisionHeightmap, "extent", [1.0, 8.1]),
+    (CollisionHeightmap, "layers", [-1, 2**32, 1.0]),
+    (RainGauge, "position", [(1, 2), (1e8, 0, 0)]),
+    (RainGauge, "area", [0, 0.0, -1, 1.1e6]),
+    (RainGauge, "window", [0, 0.09, 3601]),
     (RainArea, "center", [(1,), (1, 2, 3), (1e8, 0), "ab", {1, 2}, np.ones((2, 1)), 3]),
     (RainArea, "radii", [(0, 0), (10, 0), (-3, -4), (40, 60), (1e7, 1), (60,), (5, -1)]),
     (RainArea, "rain_rate", [-1e-9, 10001]),
@@ -192,7 +206,7 @@ def test_bad_values_name_the_field_and_change_nothing(kind, name, values):
 
 def test_every_field_of_every_component_is_among_the_cases():
     tried = {(kind, name) for kind, name, _ in CASES}
-    for kind in (*SNAPSHOT_COMPONENTS.values(), Observer):
+    for kind in (*SNAPSHOT_COMPONENTS.values(), Observer, RainGauge):
         for field in dataclasses.fields(kind):
             assert (kind, field.name) in tried
 

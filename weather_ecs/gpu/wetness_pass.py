@@ -1,7 +1,8 @@
 """The wetness map: the water on what rain meets first, around every observer.
 
-Bands of rows are brought up to date in turn, all of them within a second; all at once where the map
-moves with its observer, the wind turns or the map begins. The law has a closed form: bands may wait.
+Bands of rows are brought up to date in turn, all of them within a second; all at once where the
+map moves with its observer, the wind turns or the map begins. The law has a closed form, so that
+bands may wait.
 """
 
 from __future__ import annotations
@@ -20,13 +21,11 @@ from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.heightmap import Heightmap
 from weather_ecs.gpu.rain_pass import SHELTER_UNIT
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.gpu.wetness_far import HALF, WATCHED, FarField, rains_within, wet_within
 from weather_ecs.gpu.wetness_map import WetnessMap
-from weather_ecs.physics.wet_field import open_water
 from weather_ecs.physics.wet_map import BANDS, RINGS, MapPlace, place_over
 
 MAX_AREAS = 16
-FAR_TEXELS, FAR_TEXEL = 64, 8.0  # of the field beyond the map; m
-FAR_HALF = 0.5 * FAR_TEXELS * FAR_TEXEL
 ROUND = 1.0  # s in which every band has its turn
 LONGEST = 5.0  # s without an update, after which the map begins anew
 DRY_AFTER = 1800.0  # s without rain after which nothing is left to dry
@@ -56,7 +55,7 @@ class _Observed:
     """What belongs to one observer."""
 
     map: WetnessMap
-    far: moderngl.Texture
+    far: FarField
     textures: list[moderngl.Texture] = field(default_factory=list)
     targets: list[moderngl.Framebuffer] = field(default_factory=list)
     current: int = 0
@@ -66,8 +65,6 @@ class _Observed:
     time: float = -math.inf  # s, of the last update
     number: int = 0  # of the ground the map began with
     wet_until: float = -math.inf
-    far_at: tuple[int, int, tuple[float, float]] | None = None  # ground, tick, middle
-    far_dry: bool = True
 
 
 class WetnessPass:
@@ -93,14 +90,11 @@ class WetnessPass:
         return rains_within(view, reach) or wet_within(view, reach)
 
     def needs_update(self, view: ViewData) -> bool:
-        """Whether anything here has to be done for a view; with `needs_map`, more."""
+        """Whether there is anything to do for a view; with `needs_map` there is more."""
         seen = self._observed.get(view.key)
-        at = seen.far_at if seen is not None else None
-        wet = view.frame.wetness
-        if wet is not None and at is not None and at[:2] == (wet.number, wet.ticks):
-            return False
-        wets = rains_within(view, 1.5 * FAR_HALF) or wet_within(view, 1.5 * FAR_HALF)
-        return wets or (seen is not None and not seen.far_dry)
+        if seen is not None:
+            return seen.far.is_due(view)
+        return rains_within(view, WATCHED) or wet_within(view, WATCHED)
 
     def update(self, view: ViewData, heightmap: Heightmap | None) -> None:
         """Bring a part of the map up to date; `heightmap` is captured, its block bound.
@@ -111,7 +105,7 @@ class WetnessPass:
         reach = 1.5 * frame.heightmap.extent * frame.look.reach
         if rains_within(view, reach) or wet_within(view, reach):
             seen.wet_until = frame.time + DRY_AFTER
-        self._update_far(seen, view)
+        seen.far.update(view)
         if heightmap is None or heightmap.footprint is None:
             seen.place = None
         else:
@@ -135,7 +129,7 @@ class WetnessPass:
         self._fill(seen, view, heightmap, place)
         heightmap.static_texture.use(STATIC_UNIT)
         heightmap.texture.use(SHELTER_UNIT)
-        seen.far.use(FAR_UNIT)
+        seen.far.texture.use(FAR_UNIT)
         self._ctx.enable_only(moderngl.NOTHING)
         if moves:
             self._render(seen, 1 - seen.current, 0, place.size)
@@ -179,8 +173,7 @@ class WetnessPass:
         low = [c - footprint.half for c in footprint.center]
         data["wet_shelter"] = (*low, 1.0 / texel, 0.0)
         data["wet_heights"] = (footprint.top, 0.0, 0.0, 0.0)
-        assert seen.far_at is not None
-        data["wet_far_place"] = (*seen.far_at[2], 0.5 / FAR_HALF, 0.0)
+        data["wet_far_place"] = (*seen.far.middle, 0.5 / HALF, 0.0)
         block["wet_ages"].reshape(-1)[:] = np.maximum(frame.time - seen.times, 0.0)
         data["wet_bands"] = place.rows
         data["wet_rings"] = [max(round(radius / texel), 1) for radius in RINGS]
@@ -200,47 +193,20 @@ class WetnessPass:
         block.upload()
         block.bind()
 
-    def _update_far(self, seen: _Observed, view: ViewData) -> None:
-        """The field beyond the map, from the weather's own coarse one: once a second."""
-        wet = view.frame.wetness
-        if wet is None:
-            return
-        x, _, z = view.position
-        if seen.far_at is not None:
-            number, ticks, (u, w) = seen.far_at
-            near = max(abs(x - u), abs(z - w)) < 0.25 * FAR_HALF
-            if near and number == wet.number and ticks == wet.ticks:
-                return
-            middle = (u, w) if near else _snapped(x, z)
-        else:
-            middle = _snapped(x, z)
-        across = (np.arange(FAR_TEXELS) + 0.5) * FAR_TEXEL - FAR_HALF
-        grid = np.meshgrid(middle[0] + across, middle[1] + across)
-        points = np.stack(grid, axis=-1).reshape(-1, 2)
-        levels = tuple([(tiles.cell, tiles.places, tiles.water) for tiles in wet.levels])
-        rest = max(view.frame.time - wet.ticks, 0.0)
-        water = open_water(points, levels, wet.waited, wet.rows, rest, view.frame.areas)
-        seen.far.write(water.astype(np.float32).tobytes())
-        seen.far_at = (wet.number, wet.ticks, middle)
-        seen.far_dry = not water.any()
-
     def _publish(self, seen: _Observed) -> None:
-        far = seen.far_at[2] if seen.far_at is not None else (0.0, 0.0)
-        place = seen.place
+        far, place = (*seen.far.middle, 2.0 * HALF), seen.place
         if place is None:
-            seen.map.set((0.0, 0.0, 1.0), None, (*far, 2.0 * FAR_HALF))
+            seen.map.set((0.0, 0.0, 1.0), None, far)
         else:
-            side = place.texel * place.size
-            seen.map.set((*place.center, side), place.slope, (*far, 2.0 * FAR_HALF))
+            seen.map.set((*place.center, place.texel * place.size), place.slope, far)
             seen.map.texture = seen.textures[seen.current]
-        seen.map.far = seen.far
+        seen.map.far = seen.far.texture
 
     def _seen(self, observer: int) -> _Observed:
         seen = self._observed.get(observer)
         if seen is None:
-            far = self._ctx.texture((FAR_TEXELS,) * 2, 1, bytes(4 * FAR_TEXELS**2), dtype="f4")
-            _smooth(far)
-            seen = self._observed[observer] = _Observed(WetnessMap(self._ctx), far)
+            seen = _Observed(WetnessMap(self._ctx), FarField(self._ctx))
+            self._observed[observer] = seen
         return seen
 
     def _make_program(self) -> None:
@@ -262,7 +228,8 @@ class WetnessPass:
         _drop_map(seen)
         for _ in range(2):
             texture = self._ctx.texture((size, size), 2, dtype="f4")
-            _smooth(texture)
+            texture.filter = moderngl.LINEAR, moderngl.LINEAR
+            texture.repeat_x = texture.repeat_y = False
             seen.textures.append(texture)
             seen.targets.append(self._ctx.framebuffer([texture]))
 
@@ -292,33 +259,3 @@ def _drop_map(seen: _Observed) -> None:
     seen.targets.clear()
     seen.textures.clear()
     seen.place = None
-
-
-def _smooth(texture: moderngl.Texture) -> None:
-    texture.filter = moderngl.LINEAR, moderngl.LINEAR
-    texture.repeat_x = texture.repeat_y = False
-
-
-def _snapped(x: float, z: float) -> tuple[float, float]:
-    return round(x / FAR_TEXEL) * FAR_TEXEL, round(z / FAR_TEXEL) * FAR_TEXEL
-
-
-def rains_within(view: ViewData, reach: float) -> bool:
-    """Whether an area may rain on what lies within `reach` m."""
-    x, _, z = view.position
-    for _, (cx, cz), (a, _), _, rate, *_ in view.frame.areas.tolist():
-        if rate > 0.0 and math.hypot(cx - x, cz - z) < a + reach:
-            return True
-    return False
-
-
-def wet_within(view: ViewData, reach: float) -> bool:
-    """Whether the ground is wet within `reach` m, in the weather's own coarse field."""
-    wet = view.frame.wetness
-    here = np.array((view.position[0], view.position[2]))
-    for tiles in wet.levels if wet is not None else ():
-        side = 8.0 * tiles.cell
-        away = np.abs((tiles.places + 0.5) * side - here).max(axis=1)
-        if (away < reach + 0.5 * side).any():
-            return True
-    return False
