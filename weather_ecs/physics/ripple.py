@@ -61,11 +61,17 @@ def step(
 
 def _advance(now: NDArray, before: NDArray, keep: float, least: float) -> NDArray:
     """The step for all cells of `before`; `now` has one more on every side."""
-    rows = now[:, :-2] + now[:, 1:-1] + now[:, 2:]
-    around = rows[:-2] + rows[1:-1] + rows[2:] - now[1:-1, 1:-1]
-    new = (around * now.dtype.type(0.25) - before) * now.dtype.type(keep)
+    new = (_around(now) * now.dtype.type(0.25) - before) * now.dtype.type(keep)
     new[np.abs(new) < least] = 0.0
     return new
+
+
+def _around(a: NDArray) -> NDArray:
+    """Sums over the eight neighbours of every cell that has eight; in the shader's order."""
+    low = a[:-2, :-2] + a[:-2, 1:-1] + a[:-2, 2:]
+    level = a[1:-1, :-2] + a[1:-1, 2:]
+    high = a[2:, :-2] + a[2:, 1:-1] + a[2:, 2:]
+    return low + level + high
 
 
 def kept_share(n: int) -> float:
@@ -88,11 +94,8 @@ def energy(current: Any, previous: Any, n: int = 6) -> float:
     now = _grid("current", current).astype(np.float64)
     before = _grid("previous", previous).astype(np.float64)
     share = kept_share(n)
-    near = np.pad(before, 1)
-    rows = near[:, :-2] + near[:, 1:-1] + near[:, 2:]
-    around = rows[:-2] + rows[1:-1] + rows[2:] - before
     squares = (now * now).sum() + share * (before * before).sum()
-    return float(squares - share * 0.25 * (now * around).sum())
+    return float(squares - share * 0.25 * (now * _around(np.pad(before, 1))).sum())
 
 
 def time_step(cell: float, speed: float) -> float:
@@ -101,7 +104,7 @@ def time_step(cell: float, speed: float) -> float:
 
 
 def settling_steps(n: int) -> int:
-    """Steps after which the deepest crater's waves are below the threshold, however they meet."""
+    """Steps in which the waves of the deepest crater fall below the threshold."""
     return math.ceil(2.0 * math.log(THRESHOLD / DEEPEST) / math.log(kept_share(n)))
 
 
@@ -121,7 +124,8 @@ def craters(positions: Any, diameters: Any, speeds: Any, weights: Any) -> NDArra
     p = np.ascontiguousarray(positions, np.float32).reshape(-1, 3)
     d, v, w = (np.asarray(a, np.float32) for a in (diameters, speeds, weights))
     deep = np.float32(DEPTH) * d * np.sqrt(d) * v * np.sqrt(w)
-    word = hash_word(p[:, 0].copy().view(np.uint32)) ^ p[:, 2].copy().view(np.uint32)
+    spot = np.floor(p[:, [0, 2]] * np.float32(64.0)).astype(np.int32).view(np.uint32)
+    word = hash_word(spot[:, 0]) ^ spot[:, 1]
     share = deep / np.float32(SHALLOWEST)
     drawn = hash_unit(word) < share * share
     kept = np.clip(deep, np.float32(SHALLOWEST), np.float32(DEEPEST))

@@ -14,7 +14,8 @@ const float ON_SURFACE = 0.05;
 float crater_depth(Impact i)
 {
     float deep = DEPTH * i.diameter * sqrt(i.diameter) * i.speed * sqrt(i.weight);
-    uint word = hash_word(floatBitsToUint(i.position.x)) ^ floatBitsToUint(i.position.z);
+    uvec2 spot = uvec2(ivec2(floor(i.position.xz * 64.0)));
+    uint word = hash_word(spot.x) ^ spot.y;
     float share = deep / SHALLOWEST;
     return hash_unit(word) < share * share ? clamp(deep, SHALLOWEST, DEEPEST) : 0.0;
 }
