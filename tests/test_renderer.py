@@ -30,16 +30,16 @@ from weather_ecs.components import (
     Sun,
     Wind,
 )
-from weather_ecs.errors import ContextError, InvalidValueError
+from weather_ecs.errors import ContextError, InvalidValueError, ShaderError
 from weather_ecs.gpu import renderer as renderer_module
 from weather_ecs.gpu.context import Capabilities, probe
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.renderer import Renderer
 from weather_ecs.physics.ellipse import edge_factor
+from weather_ecs.systems import WeatherProcessor
 from weather_ecs.systems.rain_view import RainView
 
 NORTH = math.pi / 2
-NEAR = RainArea((0, 0), (60, 40), 25.0)
 
 
 def near(**changes: Any) -> RainArea:
@@ -312,11 +312,27 @@ def test_compute_where_there_is_none(
     monkeypatch.setattr(renderer_module, "probe", old)
     with pytest.raises(ContextError, match=r"4\.3.*3\.3"):
         Weather(context=ctx, backend="compute")
-    assert esper.get_processor(type(None)) is None
+    assert esper.get_processor(WeatherProcessor) is None  # nothing is left in the world
     with stage(ctx, backend="auto") as made:
         assert made.weather.backend == "feedback"
         esper.create_entity(near())
         assert made.rain(made.play(3)).mean() > 1.0
+
+
+@pytest.mark.parametrize("part", ["RainPass", "VeilPass", "DepthCopy", "PrimitiveCounter"])
+def test_a_renderer_that_cannot_be_made_leaves_nothing(
+    ctx: moderngl.Context, gl: GL, monkeypatch: pytest.MonkeyPatch, part: str
+) -> None:
+    def broken(*args: Any, **kwargs: Any) -> None:
+        raise ShaderError("the driver does not like it")
+
+    before = living(gl)
+    monkeypatch.setattr(renderer_module, part, broken)
+    with pytest.raises(ShaderError):
+        Weather(context=ctx)
+    assert living(gl) == before
+    monkeypatch.undo()
+    Weather(context=ctx).close()  # and the world has none yet
 
 
 def test_backends_that_are_none(ctx: moderngl.Context) -> None:

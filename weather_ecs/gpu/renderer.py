@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 import moderngl
 import numpy as np
@@ -44,6 +44,9 @@ class Releasable(Protocol):
     def release(self) -> object: ...
 
 
+Thing = TypeVar("Thing", bound=Releasable)
+
+
 class Renderer:
     """Owns every OpenGL object of a weather; `backend` is asked as auto, compute or feedback.
 
@@ -66,31 +69,41 @@ class Renderer:
         self.stats: dict[str, int | float] = {}
         self._gl = GL()
         self._guard = StateGuard(ctx, self._gl)
-        # Making objects binds them; the host must not notice that either.
-        with self._guard:
-            self._make(seed)
+        self._made: list[Releasable] = []  # oldest first
+        self._maps: dict[int, Heightmap] = {}
         self._released = False
+        try:
+            # Making objects binds them; the host must not notice that either.
+            with self._guard:
+                self._make(seed)
+        except BaseException:
+            self.release()
+            raise
+
+    def _keep(self, thing: Thing) -> Thing:
+        self._made.append(thing)
+        return thing
 
     def _make(self, seed: int) -> None:
-        ctx, gl = self._ctx, self._gl
-        self._shaders = ShaderLoader(ctx, gl=gl)
-        self._rain = RainPass(ctx, self._shaders, backend=self.backend, seed=seed)
-        self._splash = SplashPass(ctx, gl, self._shaders, self._rain)
-        self._impacts = ImpactCount(ctx, gl, self._shaders, self._rain)
-        self._ripples = RipplePass(ctx, self._shaders, self._rain)
-        self._gauges = GaugePass(ctx, self._shaders, self._rain)
-        self._wetness = WetnessPass(ctx, gl, self._shaders)
-        self._veil = VeilPass(ctx, self._shaders)
-        self._view_block = BlockBuffer(ctx, RAIN_VIEW)
-        self._shelter_block = BlockBuffer(ctx, SHELTER)
-        self._depth = DepthCopy(ctx, gl)
+        ctx, gl, keep = self._ctx, self._gl, self._keep
+        shaders = keep(ShaderLoader(ctx, gl=gl))
+        rain = self._rain = keep(RainPass(ctx, shaders, backend=self.backend, seed=seed))
+        self._splash = keep(SplashPass(ctx, gl, shaders, rain))
+        self._impacts = keep(ImpactCount(ctx, gl, shaders, rain))
+        self._ripples = keep(RipplePass(ctx, shaders, rain))
+        self._gauges = keep(GaugePass(ctx, shaders, rain))
+        self._wetness = keep(WetnessPass(ctx, gl, shaders))
+        self._veil = keep(VeilPass(ctx, shaders))
+        self._view_block = keep(BlockBuffer(ctx, RAIN_VIEW))
+        self._shelter_block = keep(BlockBuffer(ctx, SHELTER))
+        self._depth = keep(DepthCopy(ctx, gl))
         # Stands for the depth of a host that has none: nothing in the way anywhere.
-        self._no_depth = ctx.texture((1, 1), 1, data=np.ones(1, np.float32).tobytes(), dtype="f4")
-        self._meshes = OccluderMeshes(ctx, self._shaders)
+        nothing = np.ones(1, np.float32).tobytes()
+        self._no_depth = keep(ctx.texture((1, 1), 1, data=nothing, dtype="f4"))
         self._scene_depth: moderngl.Texture | None = None  # as copied in this draw
-        self._maps: dict[int, Heightmap] = {}
-        self._timer = GpuTimer(gl)
-        self._counter = PrimitiveCounter(gl)
+        self._meshes = keep(OccluderMeshes(ctx, shaders))
+        self._timer = keep(GpuTimer(gl))
+        self._counter = keep(PrimitiveCounter(gl))
 
     @property
     def rain(self) -> RainPass:
@@ -243,13 +256,9 @@ class Renderer:
         if self._released:
             return
         self._released = True
-        things: list[Releasable] = [
-            self._counter, self._timer, *self._maps.values(), self._meshes, self._no_depth,
-            self._depth, self._shelter_block, self._view_block, self._veil, self._ripples,
-            self._impacts, self._splash, self._wetness, self._gauges, self._rain, self._shaders,
-        ]  # fmt: skip
         with self._guard:
-            for thing in things:
+            for thing in (*self._maps.values(), *reversed(self._made)):
                 thing.release()
         self._guard.release()
         self._maps.clear()
+        self._made.clear()
