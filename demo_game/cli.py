@@ -9,7 +9,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NoReturn
 
+from demo_game.game import START
 from demo_game.headless import HeadlessOptions, TourError, encoder_is_installed, run_tour
+from demo_game.place.place import BOUNDS
 from demo_game.settings import BACKENDS, QUALITIES, Settings
 from demo_game.tours import TOURS
 from weather_ecs.errors import WeatherError
@@ -52,6 +54,19 @@ def _size(text: str) -> tuple[int, int]:
     if not (16 <= width <= LARGEST_SIZE and 16 <= height <= LARGEST_SIZE):
         raise argparse.ArgumentTypeError(f"got {text!r}, allowed: {allowed}")
     return width, height
+
+
+def _place(text: str) -> tuple[float, float]:
+    (x0, _, z0), (x1, _, z1) = BOUNDS
+    parts = text.split(",")
+    try:
+        x, z = (float(part) for part in parts)
+    except ValueError:
+        x = z = math.nan
+    if not (x0 <= x <= x1 and z0 <= z <= z1):
+        allowed = f"X,Z in m, X {x0:g} to {x1:g}, Z {z0:g} to {z1:g}, such as --start=6,-55"
+        raise argparse.ArgumentTypeError(f"got {text!r}, allowed: {allowed}")
+    return x, z
 
 
 def _one_of(names: Sequence[str]) -> Callable[[str], str]:
@@ -138,6 +153,14 @@ def build_parser() -> argparse.ArgumentParser:
         help="a film of the tour, such as walk.mp4 (needs imageio-ffmpeg)",
     )
     add("--stats", type=Path, metavar="FILE", default=None, help="JSON lines, one per frame")
+    add(
+        "--start",
+        type=_place,
+        metavar="X,Z",
+        default=START,
+        help="where in the window the walk begins, in m on the ground: 0,70, before the rain, if "
+        "not given; 6,-61 is in the cabin (write --start=-9,-90 where X is negative)",
+    )
     add("--fullscreen", action="store_true", help="open the window on the whole screen")
     return parser
 
@@ -162,7 +185,7 @@ def _run(options: argparse.Namespace) -> int:
     from demo_game.display import NoDisplay, open_window
 
     try:
-        return open_window(settings, seed=options.seed, preset=options.preset)
+        return open_window(settings, seed=options.seed, preset=options.preset, start=options.start)
     except NoDisplay as reason:
         print(f"demo_game: no window ({reason}); rendering the tour off screen instead")
     except WeatherError as error:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import pyglet
 
+from demo_game.game import START
 from demo_game.preparing import Abandoned
 from demo_game.settings import Settings
 
@@ -22,7 +23,12 @@ class NoDisplay(Exception):
 
 
 def make_window(
-    settings: Settings, *, seed: int = 0, preset: str = "heavy", size: tuple[int, int] = (1280, 720)
+    settings: Settings,
+    *,
+    seed: int = 0,
+    preset: str = "heavy",
+    start: tuple[float, float] = START,
+    size: tuple[int, int] = (1280, 720),
 ) -> GameWindow:
     """The game's window with the newest OpenGL there is.
 
@@ -47,14 +53,20 @@ def make_window(
             logging.getLogger("demo_game").debug("no OpenGL %d.%d: %s", major, minor, error)
             continue
         surface.close()
-        return GameWindow(settings, config, size=size, seed=seed, preset=preset)
+        return GameWindow(settings, config, size=size, seed=seed, preset=preset, start=start)
     raise NoDisplay(_reason(reason))
 
 
-def open_window(settings: Settings, *, seed: int = 0, preset: str = "heavy") -> int:
+def open_window(
+    settings: Settings,
+    *,
+    seed: int = 0,
+    preset: str = "heavy",
+    start: tuple[float, float] = START,
+) -> int:
     """Play until the window is closed; returns the exit code."""
     try:
-        window = make_window(settings, seed=seed, preset=preset)
+        window = make_window(settings, seed=seed, preset=preset, start=start)
     except Abandoned:
         return 0
     try:

@@ -41,6 +41,7 @@ class Entities:
 
     def __init__(self, place: Place, mood: Mood, light: Light, time: float) -> None:
         self._place = place
+        self._share = 1.0
         self.area = RainArea(center=CENTER, radii=RADII, soft_edge=SOFT_EDGE, ceiling=CEILING)
         self.shower = RainArea(
             center=on_course(SHOWER_BEFORE, mood.wind_heading),
@@ -72,15 +73,19 @@ class Entities:
                 self._moving[name] = occluder
         self.update(mood, light, time)
 
-    def update(self, mood: Mood, light: Light, time: float) -> None:
-        """Carry the game's state of this frame into the components."""
+    def update(self, mood: Mood, light: Light, time: float, share: float = 1.0) -> None:
+        """Carry the game's state of this frame into the components.
+
+        `share` of the mood's rain falls in the large area: less than 1 in a lull.
+        """
+        self._share = share
         for area, rate in self.rates(mood):
             _assign(area, rain_rate=rate)
         _assign(self._wind, speed=mood.wind_speed)
         x, z = direction(mood.wind_heading)
         if x * self._wind.direction[0] + z * self._wind.direction[1] < 1.0 - 1e-9:
             self._wind.direction = (x, z)
-        light = shade(light, mood.rain_rate)
+        light = shade(light, share * mood.rain_rate)
         _assign(
             self._sun,
             color=light.sun_color,
@@ -101,8 +106,9 @@ class Entities:
         return [self.area, self.shower]
 
     def rates(self, mood: Mood) -> list[tuple[RainArea, float]]:
-        """Every area with the rain rate that a mood gives it, mm/h."""
-        return [(self.area, mood.rain_rate), (self.shower, SHOWER_SHARE * mood.rain_rate)]
+        """Every area with the rain rate that a mood gives it now, mm/h."""
+        rate = mood.rain_rate
+        return [(self.area, self._share * rate), (self.shower, SHOWER_SHARE * rate)]
 
     def _send_shower_on(self, heading: float) -> None:
         # Whatever turned the wind, the shower is carried off at some time and comes from upwind.

@@ -13,11 +13,13 @@ from demo_game.camera import Pose, projection_matrix, view_matrix
 from demo_game.collision import Colliders
 from demo_game.compass import compass
 from demo_game.entities import Entities, direction
+from demo_game.letter import Letter, State
 from demo_game.mood import TURN_STEP, WIND_STEP, MoodChanger, preset_mood
 from demo_game.place import Place
 from demo_game.player import Intent, Player
 from demo_game.render import Environment, SceneRenderer
 from demo_game.settings import Settings
+from demo_game.showers import Showers
 from demo_game.skies import SkyChanger
 from demo_game.tours import Tour
 from weather_ecs import Weather
@@ -30,10 +32,14 @@ TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings its own clouds
 SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
 START = (0.0, 70.0)  # (x, z), m, where a player begins, looking north
+AGAIN = (6.0, -60.7)  # (x, z), m, where one begins anew: inside the cabin's door
+HAND = (1.1, 0.35)  # m above the feet and before the body, where the letter is held
 CLEAR_FOG, COVERED_FOG = 0.00035, 0.0011  # 1/m under a clear and a covered sky
 
 _numbers = itertools.count(1)
 STILL = Intent()
+FETCH = "A letter lies on the table in the cabin."
+EASES, PICKS_UP = "The rain eases.", "The rain picks up again."
 
 
 class Game:
@@ -48,6 +54,7 @@ class Game:
         seed: int = 0,
         preset: str = "heavy",
         tour: Tour | None = None,
+        start: tuple[float, float] = START,
     ) -> None:
         self.settings = settings
         self.time = 0.0  # s of play
@@ -60,7 +67,9 @@ class Game:
         esper.switch_world(self._world)
         self.place = place if place is not None else Place(seed)
         self.player = Player(self.place, Colliders.of(self.place.colliders))
-        self.player.place_at(*START, yaw=0.0)
+        self.player.place_at(*start, yaw=0.0)
+        self.letter = Letter(self.place.letter, self.place.mailbox)
+        self._showers, self._lull, self._news = Showers(seed), False, [FETCH]
         self._entities = Entities(self.place, self.mood.current, self._light(), SCENE_START)
         self.scene = SceneRenderer(context, self.place, settings.quality)
         try:
@@ -87,11 +96,14 @@ class Game:
         self.time += dt
         self.mood.update(dt)
         self.sky.update(dt)
-        self._entities.update(self.mood.current, self._light(), self._scene_time)
+        share = self._showers.share(self.time) if self.tour is None else 1.0
+        self._entities.update(self.mood.current, self._light(), self._scene_time, share)
         if self.tour is None:
             self.player.update(dt, intent)
         self.pose = self._pose()
         esper.process(dt)
+        if self.tour is None:
+            self._carry_letter(dt)
 
     def draw(self, framebuffer: moderngl.Framebuffer) -> None:
         """Draw the picture into a framebuffer's viewport; into one without size nothing."""
@@ -105,6 +117,21 @@ class Game:
         self.scene.draw(framebuffer, view, projection, self._scene_time, self._environment())
         framebuffer.use()
         self.weather.draw(view, projection)
+
+    def again(self) -> None:
+        """Another letter, and the player back in the cabin."""
+        x, _, z = self.place.letter
+        yaw = math.atan2(AGAIN[0] - x, AGAIN[1] - z)
+        self.player.place_at(*AGAIN, yaw=yaw)
+        self.letter.again()
+        self.scene.show("letter", True)
+        self._news = [FETCH]
+
+    def take_news(self) -> str | None:
+        """The latest that the player has not been told yet."""
+        news = self._news[-1] if self._news else None
+        self._news.clear()
+        return news
 
     def choose_preset(self, name: str) -> str:
         """Change the weather; returns what to tell the player."""
@@ -137,6 +164,28 @@ class Game:
         self.weather.close()
         self.scene.release()
         self._leave_world()
+
+    def _carry_letter(self, dt: float) -> None:
+        player, letter = self.player, self.letter
+        before, (x, y, z) = letter.state, player.position.tolist()
+        up, ahead = HAND
+        hand = (x - ahead * math.sin(player.yaw), y + up, z - ahead * math.cos(player.yaw))
+        here = self.weather.sample(hand)
+        news = letter.update(
+            dt,
+            (x, y, z),
+            speed=math.hypot(player.velocity[0], player.velocity[2]),
+            rain_rate=here.rain_rate,
+            sheltered=here.sheltered,
+        )
+        if letter.state is not before:
+            self.scene.show("letter", letter.state is State.LYING)
+        lull = self._showers.is_lull(self.time)
+        if lull is not self._lull and before is State.CARRIED and self.mood.current.rain_rate > 0:
+            self._news.append(EASES if lull else PICKS_UP)
+        self._lull = lull
+        if news:
+            self._news.append(news)
 
     def _leave_world(self) -> None:
         before = self._before if self._before in esper.list_worlds() else "default"

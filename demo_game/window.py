@@ -9,15 +9,16 @@ import moderngl
 import pyglet
 from pyglet.window import key
 
-from demo_game.game import Game
+from demo_game.game import START, Game
 from demo_game.gamepad import Gamepads
 from demo_game.input import Controls
 from demo_game.pictures import save_screenshot
 from demo_game.play_keys import play_key
 from demo_game.preparing import prepare_place
+from demo_game.screen_keys import screen_click, screen_key
 from demo_game.settings import Settings
 from demo_game.ui.menu import MenuActions, MouseRest, pause_menu
-from demo_game.ui.minimap import MapPlace
+from demo_game.ui.minimap import map_place
 from demo_game.ui.overlay import Overlay, Screen
 from demo_game.ui.preparing import PreparingView
 from demo_game.ui.surface import prepare_for_pyglet, read_pixels
@@ -40,6 +41,7 @@ class GameWindow(pyglet.window.Window):
         size: tuple[int, int] = (1280, 720),
         seed: int = 0,
         preset: str = "heavy",
+        start: tuple[float, float] = START,
     ) -> None:
         self.screen_shown = Screen.START
         self.ready = False
@@ -49,12 +51,14 @@ class GameWindow(pyglet.window.Window):
             *size, caption=TITLE, resizable=True, vsync=True, config=config, visible=False
         )
         try:
-            self._begin(settings, seed, preset)
+            self._begin(settings, seed, preset, start)
         except BaseException:
             super().close()
             raise
 
-    def _begin(self, settings: Settings, seed: int, preset: str) -> None:
+    def _begin(
+        self, settings: Settings, seed: int, preset: str, start: tuple[float, float]
+    ) -> None:
         self.set_minimum_size(*SMALLEST)
         self.settings = settings
         self.controls = Controls()
@@ -65,19 +69,21 @@ class GameWindow(pyglet.window.Window):
         self._gl = moderngl.get_context()
         place = prepare_place(seed, self._draw_preparing)
         self.switch_to()
-        self.game = Game(self._gl, settings, place=place, seed=seed, preset=preset)
-        self._menu = pause_menu(
+        self.game = Game(self._gl, settings, place=place, seed=seed, preset=preset, start=start)
+        self.menu = pause_menu(
             settings,
             MenuActions(
                 resume=self.resume,
                 settings_changed=self._settings_changed,
+                again=self.again,
                 help=self._open_help,
                 quit=self.close,
             ),
         )
         self._help_from = Screen.PAUSE
+        self._end_seen = False
         self._mouse_rest = MouseRest()
-        self.overlay = Overlay(self._menu, _map_place(self.game))
+        self.overlay = Overlay(self.menu, map_place(self.game.place))
         self._gamepads = Gamepads(self.controls, pause=self._toggle_pause)
         self._ms = 16.0
         self._last = clock.perf_counter()
@@ -136,7 +142,8 @@ class GameWindow(pyglet.window.Window):
         if self.screen_shown is Screen.PLAY:
             self.game.player.look(*self.controls.turn(dt))
             self.game.update(dt, self.controls.intent())
-        elif self.screen_shown is Screen.START:
+            self._follow_letter()
+        elif self.screen_shown in (Screen.START, Screen.END):
             self.game.update(dt)
         self.draw(dt)
 
@@ -157,23 +164,37 @@ class GameWindow(pyglet.window.Window):
             self._wants_picture = False
             self.overlay.say(f"Saved {save_screenshot(read_pixels(width, height))}")
 
+    def _follow_letter(self) -> None:
+        news = self.game.take_news()
+        if news:
+            self.overlay.say(news)
+        if self.game.letter.ended and not self._end_seen:
+            self._end_seen = True
+            self._show(Screen.END)
+
     # Screens
+
+    def again(self) -> None:
+        """Begin anew, with another letter."""
+        self.game.again()
+        self._end_seen = False
+        self.resume()
 
     def resume(self) -> None:
         """Go on playing."""
-        if self.screen_shown is Screen.START:
-            self.overlay.say("F1 help")
         self._show(Screen.PLAY)
 
     def pause(self) -> None:
         """Stop and show the menu; from the start screen or the help page nothing changes."""
         if self.screen_shown is Screen.PLAY:
-            self._menu.chosen = 0
+            self.menu.chosen = 0
             self._show(Screen.PAUSE)
 
     def _toggle_pause(self) -> None:
         if self.screen_shown is Screen.PLAY:
             self.pause()
+        elif self.screen_shown is Screen.END:
+            self.again()
         else:
             self.resume()
 
@@ -202,7 +223,7 @@ class GameWindow(pyglet.window.Window):
         if not self.ready:
             self._closed_early = self._closed_early or name == "ESCAPE"
         elif name == "F1":
-            self._back() if self.screen_shown is Screen.HELP else self._open_help()
+            self.back() if self.screen_shown is Screen.HELP else self._open_help()
         elif name == "F3":
             self.overlay.show_readout = not self.overlay.show_readout
         elif name == "F11":
@@ -210,19 +231,8 @@ class GameWindow(pyglet.window.Window):
             self._settings_changed("fullscreen")
         elif name == "F12":
             self._wants_picture = True
-        elif self.screen_shown is Screen.START:
-            if name in ("RETURN", "ENTER", "NUM_ENTER", "SPACE"):
-                self.resume()
-            elif name == "ESCAPE":
-                self.close()
-        elif self.screen_shown is Screen.HELP:
-            if name == "ESCAPE":
-                self._back()
-        elif self.screen_shown is Screen.PAUSE:
-            if name == "ESCAPE":
-                self.resume()
-            else:
-                self._menu.key(name)
+        elif self.screen_shown is not Screen.PLAY:
+            screen_key(name, self)
         elif name == "ESCAPE":
             self.pause()
         else:
@@ -237,7 +247,8 @@ class GameWindow(pyglet.window.Window):
         """A key came up."""
         self.controls.release(key.symbol_string(symbol))
 
-    def _back(self) -> None:
+    def back(self) -> None:
+        """From the help page to what was there before."""
         self._show(self._help_from)
 
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
@@ -249,23 +260,17 @@ class GameWindow(pyglet.window.Window):
             rise = -dy if self.settings.invert else dy
             self.game.player.look(-dx * speed, rise * speed)
         elif self.screen_shown is Screen.PAUSE and self._mouse_rest.moved(x, y):
-            self._menu.point(self.overlay.pause_view.row_at(x, y))
+            self.menu.point(self.overlay.pause_view.row_at(x, y))
 
     def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int) -> None:
         """The same with a button held."""
         self.on_mouse_motion(x, y, dx, dy)
 
     def on_mouse_press(self, x: int, y: int, button: int, modifiers: int) -> None:
-        """Begin, choose, or close the help page."""
-        if not self.ready:
-            return
-        if self.screen_shown is Screen.START:
-            self.resume()
-        elif self.screen_shown is Screen.HELP:
-            self._back()
-        elif self.screen_shown is Screen.PAUSE:
+        """Begin, choose, begin anew, or close the help page."""
+        if self.ready:
             view = self.overlay.pause_view
-            self._menu.click(view.row_at(x, y), view.side_at(x))
+            screen_click(self, view.row_at(x, y), view.side_at(x))
 
     def on_deactivate(self) -> None:
         """Another window has the keys now."""
@@ -289,14 +294,3 @@ class GameWindow(pyglet.window.Window):
         if self.width >= 1 and self.height >= 1:
             ratio = self.get_framebuffer_size()[0] / self.width
             self.overlay.resize(self.width, self.height, ratio)
-
-
-def _map_place(game: Game) -> MapPlace:
-    place = game.place
-    return MapPlace(
-        way=[tuple(point) for point in place.path[::2].tolist()],
-        cabin=(place.room[0], place.room[2]),
-        pond=place.pond.center,
-        pond_radii=place.pond.radii,
-        marks=[(place.mailbox[0], place.mailbox[2])],
-    )

@@ -12,12 +12,15 @@ from pathlib import Path
 from typing import Any
 
 from demo_game.display import make_window
+from demo_game.letter import RUINED_AT, Letter
 from demo_game.pictures import save_png
 from demo_game.settings import Settings
 from demo_game.ui.overlay import Screen
 from demo_game.ui.surface import prepare_for_pyglet, read_pixels
 from demo_game.ui.theme import Text
 
+# Screens, each with how wet the letter is
+SHOWN = (*((screen, 0.62) for screen in Screen), (Screen.END, 1.0))
 SIZES = ((1280, 720), (640, 360), (800, 600), (900, 360))
 
 
@@ -55,6 +58,16 @@ def problems(layer: Any, size: tuple[int, int]) -> list[str]:
     return found
 
 
+def bring(letter: Letter, wetness: float, to_its_end: bool) -> None:
+    """A letter that is carried and so wet, or at the mailbox, or ruined."""
+    letter.again()
+    dry = {"speed": 0.0, "rain_rate": 0.0, "sheltered": False}
+    letter.update(0.0, letter._table, **dry)
+    letter.water = wetness * RUINED_AT
+    wet = {"speed": 0.0, "rain_rate": 3.0, "sheltered": False}
+    letter.update(0.001, letter._mailbox if to_its_end else (0.0, 0.0, 0.0), **wet)
+
+
 def main(folder: str | None = None) -> None:
     window = make_window(Settings(quality="low"))
     overlay, game = window.overlay, window.game
@@ -71,21 +84,24 @@ def main(folder: str | None = None) -> None:
         target.viewport = (0, 0, *size)
         game.draw(target)
         plain = read_pixels(*size).astype("i2")
-        for screen in Screen:
+        for screen, wetness in SHOWN:
             overlay.show_readout = overlay.show_map = True
             overlay.say("Drizzle: fine drops that barely wet the ground")
+            bring(game.letter, wetness, screen is Screen.END)
             game.draw(target)
             prepare_for_pyglet(window)
             overlay.draw(screen, game, 1234.5)
             after = read_pixels(*size)
-            where = f"{screen.value} {size[0]}"
+            where = f"{screen.value} {wetness:g} {size[0]}"
             if window._gl.error != "GL_NO_ERROR":
                 report["problems"].append(f"{where}: OpenGL error")
             for layer in layers(overlay):
                 report["problems"] += [f"{where}: {text}" for text in problems(layer, size)]
             report["changed"][where] = float((abs(after - plain).max(axis=2) > 8).mean())
             if folder:
-                save_png(Path(folder) / f"{screen.value}_{size[0]}x{size[1]}.png", after)
+                save_png(
+                    Path(folder) / f"{screen.value}_{wetness:g}_{size[0]}x{size[1]}.png", after
+                )
     window.close()
     print(json.dumps(report))
 

@@ -62,6 +62,7 @@ def menu_and_log() -> tuple[Menu, Settings, list[str]]:
     actions = MenuActions(
         resume=lambda: log.append("resume"),
         settings_changed=log.append,
+        again=lambda: log.append("again"),
         help=lambda: log.append("help"),
         quit=lambda: log.append("quit"),
     )

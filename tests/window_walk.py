@@ -22,6 +22,8 @@ def line(game_window: Any) -> dict[str, Any]:
         "position": game.player.position.tolist(),
         "yaw": game.player.yaw,
         "preset": game.state,
+        "letter": game.letter.state.value,
+        "wetness": game.letter.wetness,
         "readout": game_window.overlay.show_readout,
         "map": game_window.overlay.show_map,
         "mode": stats.mode,

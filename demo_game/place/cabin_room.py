@@ -8,6 +8,7 @@ from .cabin_porch import lantern
 from .mesh import GLOW, PLAIN, STONE, Builder, yaw_matrix
 
 TABLE = (-1.65, -0.95)  # (x, z)
+LETTER = (TABLE[0] + 0.3, 0.772, TABLE[1] + 0.1)
 LAMP = (-1.9, 0.98, -1.1)  # the lantern's light
 EMBERS = (WIDTH / 2 - 0.42, 0.22, -0.6)
 # What stands in the way, local axes: (centre, size)
@@ -19,8 +20,8 @@ FURNITURE = [
 ]
 
 
-def room(build: Builder) -> None:
-    """Everything in the room that does not move."""
+def room(build: Builder, letter: Builder) -> None:
+    """Everything in the room that does not move; the letter can be taken, so it is apart."""
     wide, deep = WIDTH - 2 * WALL, DEPTH - 2 * WALL
     boards = 20
     for k in range(boards):
@@ -32,7 +33,7 @@ def room(build: Builder) -> None:
     build.box((0, -0.03, DEPTH / 2 - WALL / 2), (1.04, 0.06, WALL + 0.1), palette.BEAM)  # sill
     for x in (-1.9, 0.0, 1.9):
         build.box((x, TOP - 0.09, 0), (0.16, 0.2, deep), palette.BEAM, cuts=4)
-    _table(build)
+    _table(build, letter)
     _hearth(build)
     _bed(build)
     _shelf(build)
@@ -40,7 +41,7 @@ def room(build: Builder) -> None:
     build.box((0.2, 0.012, -0.3), (1.7, 0.012, 1.1), palette.LINEN * 0.6, material=PLAIN, cuts=4)
 
 
-def _table(build: Builder) -> None:
+def _table(build: Builder, letter: Builder) -> None:
     x, z = TABLE
     for k in range(4):
         at = (x, 0.74, z - 0.31 + k * 0.21)
@@ -52,10 +53,11 @@ def _table(build: Builder) -> None:
     for sx in (-0.55, 0.55):
         build.box((x + sx, 0.2, z + 0.85), (0.06, 0.4, 0.26), palette.BEAM)
     turn = yaw_matrix(0.35)
-    at = (x + 0.3, 0.772, z + 0.1)
-    build.box(at, (0.24, 0.008, 0.16), palette.PAPER, rotation=turn, material=PLAIN, vary=0.0)
-    seal = (x + 0.3, 0.78, z + 0.1)
-    build.box(seal, (0.03, 0.008, 0.03), palette.MAILBOX_RED, rotation=turn, material=PLAIN)
+    letter.random = build.random
+    size = (0.24, 0.008, 0.16)
+    letter.box(LETTER, size, palette.PAPER, rotation=turn, material=PLAIN, vary=0.0)
+    seal = (LETTER[0], 0.78, LETTER[2])
+    letter.box(seal, (0.03, 0.008, 0.03), palette.MAILBOX_RED, rotation=turn, material=PLAIN)
     lantern(build, LAMP[0], 0.765, LAMP[2])
     build.tube((x + 0.1, 0.765, z - 0.25), (x + 0.1, 0.87, z - 0.25), (0.04, 0.045), palette.TRIM)
 

@@ -30,18 +30,19 @@ def towards_path(path: NDArray, x: float, z: float) -> float:
 def cabin_meshes(
     blocks: list[Block], origin: NDArray, lamps: Sequence[tuple]
 ) -> Iterator[tuple[str, Mesh]]:
-    """Room, shell, and the simple cabin for the distance, in the world's axes."""
+    """Room, letter, shell, and the simple cabin for the distance, in the world's axes."""
     lights = [(np.array(lamp[0]) - origin, max(lamp[1])) for lamp in lamps]
     lights.append((np.array(cabin_room.EMBERS), EMBER_LIGHT))
-    shell, inside = Builder(21), Builder(22)
+    shell, inside, letter = Builder(21), Builder(22), Builder()
     cabin.walls(shell, inside)
     cabin.roof(shell, inside)
     for part in (cabin.foundation, cabin_porch.porch, cabin_porch.steps, cabin_porch.door):
         part(shell)
-    cabin_room.room(inside)
+    cabin_room.room(inside, letter)
     simple = cabin_solid.simple_mesh(blocks)
     for name, mesh, bounce in (
         ("room", inside.build(), BOUNCE_ROOM),
+        ("letter", letter.build(), BOUNCE_ROOM),
         ("cabin", shell.build(), BOUNCE_OUTSIDE),
         ("cabin_far", simple, BOUNCE_OUTSIDE),
     ):

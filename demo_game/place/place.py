@@ -37,6 +37,7 @@ from .terrain import Terrain
 
 LAMP_COLOR = (1.0, 0.66, 0.34)  # linear RGB
 LAMP_REACH, LANTERN_REACH = 14.0, 9.0  # m
+BOUNDS = (-200.0, -10.0, -240.0), (200.0, 60.0, 160.0)  # m, lowest and highest corner
 STEP_UP = 0.45  # m, the highest step one walks up
 
 
@@ -72,13 +73,15 @@ class Place:
         self.porch = (layout.CABIN[0], floor, layout.CABIN[1] + cabin.DEPTH / 2.0 + 1.2)
         x, z = layout.MAILBOX
         self.mailbox = (x, self.terrain.height(x, z), z)
+        a, b, c = (self.cabin_origin + cabin_room.LETTER).tolist()
+        self.letter = (a, b, c)  # on the table
         self.blocks = cabin_solid.blocks()
         self.trees = scatter.trees(self.terrain, seed)
         self.rocks = scatter.rocks(self.terrain, seed)
         self.walk = figure.Walk(self.terrain)
         x, z = layout.WINDMILL
         self._mill = windmill.base(self.terrain.height(x, z), x, z)
-        self.bounds = (np.array([-200.0, -10.0, -240.0]), np.array([200.0, 60.0, 160.0]))
+        self.bounds = (np.array(BOUNDS[0]), np.array(BOUNDS[1]))
 
     # What walkers ask.
 

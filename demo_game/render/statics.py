@@ -16,9 +16,9 @@ from .programs import compile_program, release_all, set_matrix
 
 CABIN_NEAR = 44.0  # m, within which the cabin has all its planks
 # m, from where to where a mesh is drawn; others always are
-SHOWN = {"room": (0.0, CABIN_NEAR), "cabin": (0.0, CABIN_NEAR), "cabin_far": (CABIN_NEAR, 1e9),
-         "mailbox": (0.0, 160.0), "yard": (0.0, 110.0), "lamps": (0.0, 220.0),
-         "fences": (0.0, 150.0), "rocks": (0.0, 110.0)}  # fmt: skip
+SHOWN = {"room": (0.0, CABIN_NEAR), "letter": (0.0, CABIN_NEAR), "cabin": (0.0, CABIN_NEAR),
+         "cabin_far": (CABIN_NEAR, 1e9), "mailbox": (0.0, 160.0), "yard": (0.0, 110.0),
+         "lamps": (0.0, 220.0), "fences": (0.0, 150.0), "rocks": (0.0, 110.0)}  # fmt: skip
 PARTS = 12
 ACTOR_REACH = 170.0  # m
 
@@ -50,7 +50,8 @@ class Statics:
         self._ranges = np.concatenate(ranges)
         self._low, self._high = np.concatenate(lows), np.concatenate(highs)
         self._reach = np.concatenate(reach)
-        cabin = np.array([n.startswith(("cabin", "room")) for n in names])
+        self._names, self._hidden = np.array(names), np.zeros(len(names), bool)
+        cabin = np.array([n.startswith(("cabin", "room", "letter")) for n in names])
         low, high = self._low[cabin].min(0), self._high[cabin].max(0)  # all change at once
         self._switch = (
             np.where(cabin[:, None], low, self._low),
@@ -68,9 +69,13 @@ class Statics:
         seen = geometry.boxes_seen(planes, self._low, self._high)
         switch = geometry.box_distance(camera, *self._switch)
         seen &= (switch >= self._reach[:, 0]) & (switch < self._reach[:, 1])
-        chosen = np.flatnonzero(seen)
+        chosen = np.flatnonzero(seen & ~self._hidden)
         for first, count in self._ranges[chosen[np.argsort(away[chosen])]].tolist():
             self._array.render(vertices=count, first=first)
+
+    def show(self, name: str, shown: bool) -> None:
+        """Show a mesh or leave it out; its shadow stays."""
+        self._hidden[self._names == name] = not shown
 
     def draw_shadow(self, matrix: NDArray) -> None:
         """Draw all of it from the sun; the simple cabin comes last and is left out."""

@@ -1,4 +1,4 @@
-"""The help page on F1: every key, in two columns."""
+"""The help page on F1: what to do, and every key, in two columns."""
 
 from __future__ import annotations
 
@@ -32,12 +32,19 @@ RIGHT = (
     ("T", "time of day"),
     ("gamepad", "sticks walk and look, A jumps"),
 )
+PURPOSE = (
+    "Carry the letter from the table in the cabin to the mailbox at the end of the path, and keep",
+    "it dry. Wait under the porch until the rain eases; trees keep the rain off, too.",
+)
 WIDTH = 860.0  # units
 ROW = 30.0
 HEAD = 78.0
+PURPOSE_ROW = 24.0
+GAP = 16.0  # between the purpose and the keys
 FOOT = 50.0
 KEY_WIDTH = 148.0
 SIZE = 16.0
+TOP = HEAD + PURPOSE_ROW * len(PURPOSE) + GAP  # of the keys
 
 
 class HelpView:
@@ -46,7 +53,7 @@ class HelpView:
     def __init__(self, frame: Frame) -> None:
         self._layer = layer = Layer(frame)
         px = frame.px
-        width, height = px(WIDTH), px(HEAD + ROW * len(LEFT) + FOOT)
+        width, height = px(WIDTH), px(TOP + ROW * len(LEFT) + FOOT)
         x, y = round((frame.width - width) / 2), round((frame.height - height) / 2)
         self.panel = Rect(x, y, width, height)
         layer.add(
@@ -57,11 +64,13 @@ class HelpView:
         layer.panel(self.panel)
         pad = px(PADDING * 2)
         layer.text("Help", x + pad, self.panel.top - px(HEAD * 0.52), 26, bold=True)
+        for index, line in enumerate(PURPOSE):
+            layer.text(line, x + pad, self.panel.top - px(HEAD + PURPOSE_ROW * index), SIZE)
         for column, rows in enumerate((LEFT, RIGHT)):
             start = x + pad + column * px(WIDTH / 2 - PADDING)
             key_width = KEY_WIDTH if column == 0 else KEY_WIDTH * 0.66
             for index, (key, meaning) in enumerate(rows):
-                middle = self.panel.top - px(HEAD + ROW * (index + 0.5))
+                middle = self.panel.top - px(TOP + ROW * (index + 0.5))
                 if key:
                     layer.text(key, start, middle, SIZE, color=ACCENT)
                     layer.text(meaning, start + px(key_width), middle, SIZE)

@@ -109,6 +109,7 @@ class MenuActions:
 
     resume: Callable[[], None]
     settings_changed: Callable[[str], None]  # the name of the field that changed
+    again: Callable[[], None]  # another letter
     help: Callable[[], None]
     quit: Callable[[], None]
 
@@ -149,6 +150,7 @@ def pause_menu(settings: Settings, actions: MenuActions) -> Menu:
                 on_off,
                 lambda: "on" if settings.fullscreen else "off",
             ),
+            Item("Another letter", act=actions.again),
             Item("Help", act=actions.help),
             Item("Quit", act=actions.quit),
         ],

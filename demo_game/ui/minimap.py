@@ -10,6 +10,8 @@ import pyglet
 from pyglet.gl import GL_SCISSOR_TEST, glDisable, glEnable, glScissor
 from pyglet.graphics import Group
 
+from demo_game.place import Place
+from demo_game.ui.envelope import ASPECT, Envelope
 from demo_game.ui.theme import MARGIN, PADDING, TEXT_DIM, WARM, Frame, Layer, Rect, Rgba
 
 EXTENT = (-88.0, -182.0, 88.0, 102.0)  # x0, z0, x1, z1, m
@@ -42,7 +44,18 @@ class MapPlace:
     cabin: tuple[float, float]
     pond: tuple[float, float]
     pond_radii: tuple[float, float]
-    marks: Sequence[tuple[float, float]] = ()  # single things of note
+    mailbox: tuple[float, float]
+
+
+def map_place(place: Place) -> MapPlace:
+    """What the map shows of a place."""
+    return MapPlace(
+        way=[tuple(point) for point in place.path[::2].tolist()],
+        cabin=(place.room[0], place.room[2]),
+        pond=place.pond.center,
+        pond_radii=place.pond.radii,
+        mailbox=(place.mailbox[0], place.mailbox[2]),
+    )
 
 
 class _Clip(Group):
@@ -105,6 +118,11 @@ class Minimap:
             color=WARM, batch=layer.batch, group=self._player,
         )  # fmt: skip
         self._add(self._arrow)
+        self._ring = pyglet.shapes.Arc(
+            0, 0, max(px(11), 8.0), segments=28, thickness=max(1.5, px(2)), closed=True,
+            color=WARM, batch=layer.batch, group=self._player,
+        )  # fmt: skip
+        self._add(self._ring)
         layer.text(
             "N", inner.x + inner.width / 2, inner.top - px(10), 12,
             color=TEXT_DIM, anchor_x="center",
@@ -116,8 +134,14 @@ class Minimap:
             z - EXTENT[1]
         ) * self._pixels
 
-    def show(self, areas: list[MapArea], position: tuple[float, float], yaw: float) -> None:
-        """Move what moves."""
+    def show(
+        self,
+        areas: list[MapArea],
+        position: tuple[float, float],
+        yaw: float,
+        goal: tuple[float, float] | None = None,
+    ) -> None:
+        """Move what moves; a ring marks the goal (x, z), where there is one."""
         while len(self._areas) < len(areas):
             self._areas.append((self._ellipse(), self._ellipse()))
         if self._shown != areas:
@@ -128,6 +152,9 @@ class Minimap:
                     self._place_area(areas[index], *pair)
             self._shown = list(areas)
         self._arrow.position = self.to_map(*position)
+        self._ring.visible = goal is not None
+        if goal is not None and self._ring.position != self.to_map(*goal):
+            self._ring.position = self.to_map(*goal)
         self._arrow.rotation = math.degrees(-yaw) - 90.0
 
     def draw(self) -> None:
@@ -179,13 +206,9 @@ class Minimap:
                 group=self._things,
             )
         )  # fmt: skip
-        for mark in place.marks:
-            self._add(
-                pyglet.shapes.Circle(
-                    *self.to_map(*mark), max(px(3), 2.0), color=HOUSE, batch=batch,
-                    group=self._things,
-                )
-            )  # fmt: skip
+        wide = max(px(13), 10.0)
+        x, y = self.to_map(*place.mailbox)
+        Envelope(layer, x - wide / 2, y - wide * ASPECT / 2, wide, self._things)
 
     def _add(self, thing: object) -> None:
         self._layer.add(thing)

@@ -6,8 +6,10 @@ from enum import Enum
 from typing import Any
 
 from demo_game.game import Game
+from demo_game.ui.end import EndView
 from demo_game.ui.help import HelpView
 from demo_game.ui.hud import INTERVAL, Message, Readout, readout_values
+from demo_game.ui.letter_view import LetterView
 from demo_game.ui.menu import Menu
 from demo_game.ui.menu_view import MenuView
 from demo_game.ui.minimap import MapArea, MapPlace, Minimap
@@ -22,6 +24,7 @@ class Screen(Enum):
     PLAY = "play"
     PAUSE = "pause"
     HELP = "help"
+    END = "end"
 
 
 class Overlay:
@@ -36,6 +39,7 @@ class Overlay:
         self._views: dict[str, Any] = {}
         self._message = Message(self._frame)
         self._since = INTERVAL
+        self._ended: object = None
 
     def resize(self, width: int, height: int, ratio: float = 1.0) -> None:
         """Lay out for another window; ratio is framebuffer px per window px."""
@@ -67,11 +71,16 @@ class Overlay:
             self.pause_view.draw()
         elif screen is Screen.HELP:
             self._view("help").draw()
+        elif screen is Screen.END:
+            self._end_view(game).draw()
         else:
             if self.show_map:
                 self._draw_map(game)
             if self.show_readout:
                 self._draw_readout(game, ms)
+            letter = self._view("letter")
+            letter.show(game.letter)
+            letter.draw()
             self._message.draw()
 
     def delete(self) -> None:
@@ -88,10 +97,21 @@ class Overlay:
                 "start": lambda: StartView(frame),
                 "pause": lambda: MenuView(frame, self._menu),
                 "help": lambda: HelpView(frame),
+                "letter": lambda: LetterView(frame),
                 "readout": lambda: Readout(frame),
                 "map": lambda: Minimap(frame, self._place, self._ratio),
             }[name]()
         return self._views[name]
+
+    def _end_view(self, game: Game) -> EndView:
+        # It says how this letter ended, so another one needs another view.
+        ended = game.letter.state, game.letter.time
+        if ended != self._ended and "end" in self._views:
+            self._views.pop("end").delete()
+        self._ended = ended
+        if "end" not in self._views:
+            self._views["end"] = EndView(self._frame, game.letter)
+        return self._views["end"]
 
     def _draw_map(self, game: Game) -> None:
         x, _, z = game.pose.eye
@@ -100,7 +120,7 @@ class Overlay:
             for area in game.areas
         ]
         view = self._view("map")
-        view.show(areas, (x, z), game.pose.yaw)
+        view.show(areas, (x, z), game.pose.yaw, game.letter.goal)
         view.draw()
 
     def _draw_readout(self, game: Game, ms: float) -> None:
