@@ -16,6 +16,7 @@ from weather_ecs.gpu.rain_blocks import RAIN_VIEW, SHELTER
 from weather_ecs.gpu.rain_pass import SHELTER_UNIT
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.splash_pass import SPLASH, fill_splash
+from weather_ecs.gpu.splash_texture import BEAD
 from weather_ecs.gpu.view_block import fill_view
 from weather_ecs.physics.splash import SplashLaw, acceleration
 
@@ -45,15 +46,23 @@ class Looks(NamedTuple):
 
 
 class Quads(NamedTuple):
-    """Quads of the geometry shader, one row each."""
+    """Quads of the geometry shader (films and crowns), and the beads that are its droplets."""
 
     corners: NDArray  # (n, 4, 4), clip space
-    layer: NDArray
-    color: NDArray
+    layer: NDArray  # (n,)
+    beads: NDArray  # (m, 3, 4), clip space
 
     @property
     def ndc(self) -> NDArray:
         return self.corners[..., :3] / self.corners[..., 3:]
+
+    @property
+    def droplets(self) -> NDArray:
+        """Middles of the droplets, (m, 2): half-way between the two corners off the right one."""
+        ndc = self.beads[..., :2] / self.beads[..., 3:]
+        right, across, along = ndc[:, 0], ndc[:, 1], ndc[:, 2]
+        # The bead fills half of either side.
+        return right + 0.25 * (across - right) + 0.25 * (along - right)
 
 
 def impacts(count: int, **fields: object) -> NDArray:
@@ -109,11 +118,12 @@ class SplashCapture:
         return Looks(*np.split(found, [3, 6, 10, 14], axis=1))
 
     def quads(self, records: NDArray, view: ViewData, look: SplashLook) -> Quads:
-        """Every quad of every impact, in order; a quad is two triangles."""
-        found = self._run(self._quads, records, view, look, 11, len(records) * 7 * 6)
-        found = found[found[:, 3] != 0.0].reshape(-1, 6, 11)
-        corners = found[:, [0, 1, 2, 5]]
-        return Quads(corners[..., :4], corners[:, 0, 6], corners[:, 0, 7:])
+        """What is drawn of every impact, in order; a quad is two triangles, a droplet one."""
+        found = self._run(self._quads, records, view, look, 11, len(records) * 9 * 3)
+        found = found[found[:, 3] != 0.0].reshape(-1, 3, 11)
+        bead = found[:, 0, 6] == BEAD
+        quads = found[~bead].reshape(-1, 6, 11)[:, [0, 1, 2, 5]]
+        return Quads(quads[..., :4], quads[:, 0, 6], found[bead][..., :4])
 
     def _run(
         self, program: moderngl.Program, records: NDArray, view: ViewData, look: SplashLook,

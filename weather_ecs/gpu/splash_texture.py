@@ -140,7 +140,7 @@ def _film(age: float) -> NDArray[np.uint8]:
     bead = np.exp(-((aside * away) ** 2 + (away - reach) ** 2) / 0.04**2)
     thrown = ((0.5 * line * (1.0 - age) + bead) * force).max(axis=2)
     inside = 0.3 * max(1.0 - 1.8 * age, 0.0) * _smooth(1.0, 0.9, radius / edge)
-    water = (rim + thrown + inside) * (1.0 - _smooth(0.2, 0.75, age))
+    water = (rim + thrown + inside) * (1.0 - _smooth(0.15, 0.6, age))
     return _picture(water, 0.35 + 0.5 * rim + 0.6 * thrown)
 
 
@@ -157,10 +157,10 @@ def _ring(age: float) -> NDArray[np.uint8]:
 
 
 def _bead() -> NDArray[np.uint8]:
-    """A droplet: round, soft, light at its top."""
+    """A droplet, in the middle half of its picture: round, soft, light at its top."""
     radius, _ = _polar()
-    y = np.linspace(-1.0, 1.0, SIZE)[:, None]
-    return _picture(_smooth(0.95, 0.35, radius), 0.65 + 0.35 * y + 0.0 * radius)
+    y = np.linspace(-2.0, 2.0, SIZE)[:, None]
+    return _picture(_smooth(0.48, 0.18, radius), 0.65 + 0.35 * y + 0.0 * radius)
 
 
 # The grid

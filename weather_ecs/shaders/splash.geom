@@ -1,25 +1,23 @@
 // A splash: the film that spreads flat over the surface, the crown on it, and droplets on parabolas
 // that end where they hit again. Film and droplets are only there close by.
 layout(points) in;
-layout(triangle_strip, max_vertices = 28) out;
+layout(triangle_strip, max_vertices = 23) out;
 #include "splash.glsl"
 #include "splash_quad.glsl"
 #include "shelter.glsl"
 
 in vec3 vs_throw[];
 
-// How high p lies over what the map knows of, m.
-float height_over(vec3 p)
-{
-    return -below_surface(shelter_place(p));
-}
+const float EDGE = 0.08;  // m, of a drop in height that a droplet may fall over
 
 void film(vec4 form, vec3 first, vec3 second, vec4 color)
 {
     bool wet = form.z > 0.5;
-    if (form.y >= (wet ? CROWN_LIFE : FILM_LIFE)) return;
+    float pixels = form.x * camera_position.w / length(vs_at[0] - camera_position.xyz);
+    if (form.y >= (wet ? CROWN_LIFE : FILM_LIFE) || pixels < 3.0) return;
+    color.a *= smoothstep(3.0, 6.0, pixels);
     float turn = 40.0 * form.w;
-    float reach = form.x * growth(form.y) * (wet ? 2.6 : 2.0);
+    float reach = form.x * growth(form.y) * (wet ? 2.4 : 1.7);
     vec3 a = (first * cos(turn) + second * sin(turn)) * reach;
     vec3 b = (second * cos(turn) - first * sin(turn)) * reach;
     // The more so, the less there is to see of the crown.
@@ -42,10 +40,13 @@ void droplet(vec3 p, vec3 velocity, float size, vec4 color)
     float wide = max(pixels, 1.5);
     vec2 across = vec2(-along.y, along.x) * wide / view_size.xy;
     vec2 longer = along * wide / view_size.xy;
-    corner(vec4(a.xy - (longer + across) * a.w, a.zw), vec2(0.0, 0.0), BEAD, color);
-    corner(vec4(a.xy - (longer - across) * a.w, a.zw), vec2(1.0, 0.0), BEAD, color);
-    corner(vec4(b.xy + (longer - across) * b.w, b.zw), vec2(0.0, 1.0), BEAD, color);
-    corner(vec4(b.xy + (longer + across) * b.w, b.zw), vec2(1.0, 1.0), BEAD, color);
+    // One triangle around the bead, which fills the middle of its picture.
+    vec2 start = a.xy / a.w - longer;
+    vec2 beyond = b.xy / b.w + longer;
+    beyond += beyond - start;
+    corner(vec4((start - across) * b.w, b.zw), vec2(0.25, 0.25), BEAD, color);
+    corner(vec4((start + 3.0 * across) * b.w, b.zw), vec2(1.25, 0.25), BEAD, color);
+    corner(vec4((beyond - across) * b.w, b.zw), vec2(0.25, 1.25), BEAD, color);
     EndPrimitive();
 }
 
@@ -88,14 +89,12 @@ void droplets(float seed, vec3 n, vec3 first, vec3 second, vec4 color)
         vec3 across = first * cos(turn) + second * sin(turn);
         vec3 v = (n * cos(tilt) + across * sin(tilt)) * pace;
         float back = fall < 0.0 ? min(-2.0 * dot(n, v) / min(fall, -1e-6), LONGEST) : LONGEST;
-        if (age >= back) {
-            // Over the edge of what was hit it falls on; else it has landed.
-            vec3 landed = vs_at[0] + v * back + 0.5 * pull * (back * back);
-            if (height_over(landed) < 0.08) continue;
-        }
-        vec3 p = vs_at[0] + v * age + 0.5 * pull * (age * age);
-        if (height_over(p) < -0.03) continue;
-        droplet(p, v + pull * age, splash_grain.x, color);
+        vec3 way = v * age + 0.5 * pull * (age * age);
+        vec3 landed = vs_at[0] + v * back + 0.5 * pull * (back * back);
+        // Over the edge of what was hit it falls on, as deep as it is there; else it has landed.
+        float deep = -below_surface(shelter_place(landed));
+        if (age >= back && (deep < EDGE || -dot(n, way) > deep)) continue;
+        droplet(vs_at[0] + way, v + pull * age, splash_grain.x, color);
     }
 }
 

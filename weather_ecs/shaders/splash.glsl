@@ -11,7 +11,7 @@ const int MOST = 5;          // droplets of one splash
 const float FAINTEST = 0.004;   // opacity below which nothing is drawn
 // Shares of the life from which on the texture of a crown and of a film is empty.
 const float CROWN_LIFE = 0.93;
-const float FILM_LIFE = 0.69;
+const float FILM_LIFE = 0.56;
 
 // Greatest radius of a drop's water, D We^(1/4) / 2, in m, as it is drawn. D in mm, v in m/s.
 float bounded_radius(float diameter, float speed)
