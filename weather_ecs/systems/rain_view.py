@@ -85,7 +85,8 @@ class RainView:
         dt = frame.time - seen.time
         if dt > 0.0:
             seen.velocity = _velocity(seen, camera.position, dt)
-            seen.position, seen.time = camera.position, frame.time
+        # In a pause too: where the observer went then is no motion.
+        seen.position, seen.time = camera.position, frame.time
         containers = self._containers(frame, camera, seen, settings, min(dt, 1.0))
         veiled = settings.veil and frame.look.veil > 0.0
         return ViewData(
