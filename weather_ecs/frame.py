@@ -72,7 +72,7 @@ class SplashLook:
     """Looks of the splashes; see `components.SplashEmitter`."""
 
     size: float = 26.0  # factor on the radius to which the drop's water spreads
-    largest: float = 0.10  # m, radius that no crown exceeds
+    largest: float = 0.12  # m, radius that no crown exceeds
     duration: float = 0.3  # s, from the hit until the crown has sunk
     opacity: float = 0.85  # greatest of one splash
     share: float = 0.005  # of the real drops whose splash is shown full-grown

@@ -18,7 +18,7 @@ class SplashEmitter(Component):
     """
 
     size: float = 26.0  # 0 to 200, factor on the radius to which the drop's water spreads
-    largest: float = 0.10  # m, 0.001 to 10, radius that no crown exceeds
+    largest: float = 0.12  # m, 0.001 to 10, radius that no crown exceeds
     duration: float = 0.3  # s, 0.02 to 5, from the hit until the crown has sunk
     opacity: float = 0.85  # 0 to 1, greatest of one splash
     share: float = 0.005  # 0 to 1, of the real drops whose splash is shown full-grown

@@ -73,9 +73,8 @@ def crown_radius(
     diameter: NDArray, speed: NDArray, weight: NDArray, seed: NDArray, law: SplashLaw
 ) -> FloatArray:
     """Radius to which a crown opens as it is drawn, m."""
-    radius = spread_radius(diameter, speed) * law.size
-    bounded = law.largest * -np.expm1(-radius / law.largest)
-    return bounded * stature(weight, seed, law)
+    radius = spread_radius(diameter, speed) * law.size * stature(weight, seed, law)
+    return law.largest * -np.expm1(-radius / law.largest)
 
 
 def growth(x: NDArray) -> FloatArray:

@@ -13,11 +13,12 @@ const float FAINTEST = 0.004;   // opacity below which nothing is drawn
 const float CROWN_LIFE = 0.93;
 const float FILM_LIFE = 0.56;
 
-// Greatest radius of a drop's water, D We^(1/4) / 2, in m, as it is drawn. D in mm, v in m/s.
-float bounded_radius(float diameter, float speed)
+// Greatest radius of a drop's water, D We^(1/4) / 2, in m, as it is drawn: larger by the look and
+// by `high`, within a bound. D in mm, v in m/s.
+float crown_radius(float diameter, float speed, float high)
 {
     float weber = speed * speed * diameter / 0.0728;
-    float radius = 0.5e-3 * diameter * pow(weber, 0.25) * splash_look.x;
+    float radius = 0.5e-3 * diameter * pow(weber, 0.25) * splash_look.x * high;
     return splash_look.y * (1.0 - exp(-radius / splash_look.y));
 }
 

@@ -35,7 +35,7 @@ void main()
     vec4 clip = view_projection * vec4(i.position, 1.0);
     if (clip.w < 0.2) return;
     float high = stature(i.weight, i.seed);
-    float radius = bounded_radius(i.diameter, i.speed) * high;
+    float radius = crown_radius(i.diameter, i.speed, high);
     float pixels = radius * camera_position.w / clip.w;
     vec2 margin = (3.0 * radius + THROWN) * camera_position.w * 2.0 / view_size.xy;
     if (pixels < 0.2 || any(greaterThan(abs(clip.xy), clip.ww + margin))) return;
