@@ -245,5 +245,6 @@ class Game:
             ],
             wind=(mood.wind_speed * x, 0.0, mood.wind_speed * z),
             ripples=self.weather.ripples(self._entities.pond),
+            water=self.weather.wetness() if self.tour is None else None,
             lamps=light.lamps,
         )

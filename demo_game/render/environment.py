@@ -18,6 +18,13 @@ class Ripples(Protocol):
         """Bind them."""
 
 
+class Water(Protocol):
+    """The weather's water on the ground, for a program that includes wetness.glsl."""
+
+    def use(self, program: Any, unit: int) -> None:
+        """Bind it."""
+
+
 @dataclass
 class Environment:
     """What the game tells the renderer each frame; the defaults are a late afternoon."""
@@ -34,6 +41,7 @@ class Environment:
     rain_areas: Sequence[RainPatch] = field(default_factory=list)
     wind: tuple[float, float, float] = (2.0, 0.0, 0.6)  # m/s
     ripples: Ripples | None = None  # on the pond
+    water: Water | None = None  # on the ground; without it rain areas and wetness wet it
     lamps: float | None = None  # 0..1, how bright lamps burn; None: as the daylight asks
 
     def lamp_strength(self) -> float:

@@ -50,11 +50,11 @@ class FrameBlock:
         self._drift = np.zeros(2)  # m, of the clouds
         self.buffer = ctx.buffer(reserve=FRAME_DTYPE.itemsize, dynamic=True)
 
-    def attach(self, *programs: moderngl.Program) -> None:
+    def attach(self, *programs: moderngl.Program, name: str = "Frame") -> None:
         """Point the programs' block at this buffer's binding."""
         for program in programs:
-            if "Frame" in program:
-                program["Frame"].binding = BINDING  # type: ignore[union-attr]
+            if name in program:
+                program[name].binding = BINDING  # type: ignore[union-attr]
 
     def camera(self, view: NDArray, projection: NDArray) -> NDArray:
         """Set the camera; returns its position, m."""
@@ -76,7 +76,7 @@ class FrameBlock:
         row["ground_color"] = (*env.ground_color, 0.0)
         speed = math.hypot(env.wind[0], env.wind[2])
         self._advance(time, speed, env)
-        row["drift"] = (*self._drift, 0.0, 0.0)
+        row["drift"] = (*self._drift, 1.0 if env.water is not None else 0.0, 0.0)
         way = (env.wind[0] / max(speed, 1e-6), env.wind[2] / max(speed, 1e-6))
         sway = 0.05 + 0.030 * min(speed, 20.0)
         row["wind"] = (*way, sway, self._phase)

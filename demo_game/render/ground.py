@@ -14,6 +14,7 @@ from .frame_block import FrameBlock
 from .programs import compile_program, release_all, set_uniforms
 
 COARSE_FROM = 48.0  # m, from where chunks have few triangles
+DRIES = 1800.0  # s after the last rain until the ground is certainly dry
 DETAIL_REACH = 26.0  # m, up to which the ground has its fine grain
 UNITS = {"shadow_map": 0, "detail_map": 1, "meadow_map": 2, "sky_map": 3}
 
@@ -51,6 +52,7 @@ class Ground:
         self._arrays = [ctx.vertex_array(self.far, content, self._indices)]
         self._arrays += [ctx.vertex_array(p, short, self._indices) for p in self.programs[1:]]
         self._chunks, self._coarse = mesh.chunks, mesh.coarse
+        self._block, self._dry_from = block, np.zeros(len(mesh.low))
         self._low, self._high = mesh.low, mesh.high
         inside = (mesh.low[:, [0, 2]] > paint.LOW + paint.MARGIN).all(axis=1)
         inside &= (mesh.high[:, [0, 2]] < paint.HIGH - paint.MARGIN).all(axis=1)
@@ -66,12 +68,16 @@ class Ground:
     def _wet_chunks(self, environment: Environment) -> NDArray:
         if environment.wetness > 0.0:
             return np.ones(len(self._low), bool)
+        time = float(self._block.data["camera"][0, 3])
         wet = np.zeros(len(self._low), bool)
         middle = (self._low + self._high)[:, [0, 2]] * 0.5
         half = np.linalg.norm((self._high - self._low)[:, [0, 2]], axis=1) * 0.5
         for center, (a, _), _, rate, _ in environment.rain_areas:
             if rate > 0.0:
                 wet |= np.linalg.norm(middle - center, axis=1) < a * 1.02 + half
+        if environment.water is not None:
+            self._dry_from[wet] = time + DRIES
+            wet = self._dry_from > time
         return wet
 
     def _live_chunks(self, spheres: list[tuple[NDArray, float]], sun: NDArray) -> NDArray:

@@ -25,6 +25,7 @@ from .trees import Trees
 from .water import Halos, LampPools, Water
 
 SHADOW_UNIT, DETAIL_UNIT, MEADOW_UNIT, SKY_UNIT, LEAF_UNIT = range(5)
+WATER_UNIT = 6  # and the one after; 5 has the ripples
 MOVING_SHADOWS = 140.0  # m from the camera
 SUN_STRENGTH = 2.6  # of the sun against its colour
 
@@ -55,6 +56,11 @@ class SceneRenderer:
         for program in solid:
             set_uniforms(program, **units)
         self._lit = (*solid, *self._ground.programs)
+        self._wet = (*self._lit, self._water.program)
+        for program in self._wet:
+            # Until the weather's water is there, anything of the right kind.
+            set_uniforms(program, weather_wet_map=DETAIL_UNIT, weather_wet_far=DETAIL_UNIT)
+            self._block.attach(program, name="WeatherWetness")
         self._make_sized()
         self._released = False
 
@@ -102,6 +108,9 @@ class SceneRenderer:
         full = tuple(SUN_STRENGTH * c for c in environment.sun_color)
         for program in self._lit:
             program["sun_full"] = full
+        if environment.water is not None:
+            for program in self._wet:
+                environment.water.use(program, WATER_UNIT)
         self._sky.paint(camera, environment)
         target.use()
         target.viewport = viewport

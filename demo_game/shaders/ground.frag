@@ -13,6 +13,7 @@ uniform sampler2D detail_map;
 #endif
 #ifdef WET
 uniform sampler2D sky_map;
+#include "wetness.glsl"
 #endif
 
 in vec4 v_light;
@@ -44,7 +45,13 @@ void main() {
 #endif
     vec3 color = albedo * (v_light.rgb + sun_full * (v_light.a * lit));
 #ifdef WET
-    float puddle = clamp(detail.a * 8.5 + 0.35, 0.0, 1.0) * bare * wet;
+    float puddle = clamp(detail.a * 8.5 + 0.35, 0.0, 1.0) * wet;
+    if (drift.z > 0.5) {
+        float water = weather_water(p);
+        wet = weather_damp(water);
+        puddle = weather_pooled(water, 5.0 - 12.5 * detail.a);
+    }
+    puddle *= bare;
     color *= 1.0 - wet * (0.28 + 0.20 * bare) - 0.25 * puddle;
     vec3 view = normalize(v_view.xyz);
     vec2 tilt = detail.bg * (0.9 - 0.86 * puddle);

@@ -1,6 +1,7 @@
 // Light at a vertex. n unit normal, p world position; all linear RGB.
 const vec3 LAMP_COLOR = vec3(1.0, 0.66, 0.36);
 const float LAMP_STRENGTH = 1.5;
+#include "wetness.glsl"
 
 // x: share of daylight the rain clouds take at p, y: wetness they bring.
 vec2 rain_cover(vec2 p) {
@@ -13,7 +14,9 @@ vec2 rain_cover(vec2 p) {
         cover.x = max(cover.x, area_turn[i].z * (1.0 - smoothstep(0.72, 1.35, r)));
         cover.y = max(cover.y, area_turn[i].w * (1.0 - smoothstep(0.86, 1.02, r)));
     }
-    return vec2(cover.x, max(cover.y, sun_color.w));
+    cover.y = max(cover.y, sun_color.w);
+    if (drift.z > 0.5) cover.y = weather_damp(weather_open_wetness(vec3(p, 0.0).xzy));
+    return cover;
 }
 
 vec3 sky_light(vec3 n, float dim) {

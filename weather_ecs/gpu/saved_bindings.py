@@ -102,9 +102,12 @@ class Slots:
         if not self._ranges and self._reads and self._gl.glBindBuffersBase is not None:
             self._gl.glBindBuffersBase(target, self._reads[0][0], len(self._reads), None)
             return
+        there = self._gl.glIsBuffer
         for (index, _), buffer in zip(self._reads, self._buffer, strict=False):
             start, size = self._ranges.get(index, (0, 0))
-            if size:
+            if buffer and not there(buffer):
+                bind(target, index, 0)
+            elif size:
                 self._gl.glBindBufferRange(target, index, buffer, start, size)
             else:
                 bind(target, index, buffer)

@@ -172,11 +172,16 @@ class SavedState:
         # Binding an indexed buffer also binds the plain one, so those come first.
         self._buffers.restore()
         self._textures.restore()
-        integers = self._integers
-        program = integers.start[e.CURRENT_PROGRAM]
-        # A program that was deleted while in use is gone once another one was used.
-        if integers.values[program] and not self._gl.glIsProgram(integers.values[program]):
-            integers.values[program] = 0
+        integers, gl = self._integers, self._gl
+        # A program that was deleted while in use is gone once another one was used; and the host
+        # may have bound a block of ours that was given back in the meantime.
+        for name, there in (
+            (e.CURRENT_PROGRAM, gl.glIsProgram),
+            (e.UNIFORM_BUFFER_BINDING, gl.glIsBuffer),
+        ):
+            place = integers.start[name]
+            if integers.values[place] and not there(integers.values[place]):
+                integers.values[place] = 0
         for part in self._parts:
             part.restore()
         self._targets.restore()

@@ -37,14 +37,18 @@ float weather_wetness(vec3 p, vec3 normal)
     return weather_water(p) * smoothstep(-0.2, 0.6, facing);
 }
 
-// 0 to 1: how much of a puddle stands at p. `relief`, mm, is the game's own fine relief over its
-// deepest hollows, which the weather knows nothing of: there the water of the film around runs
+// 0 to 1: how much of a puddle so much water makes. `relief`, mm, is the game's own fine relief over
+// its deepest hollows, of which the weather knows nothing: there the water of the film around runs
 // together, as it stands in the larger hollows of the occluders.
+float weather_pooled(float water, float relief)
+{
+    return clamp(6.0 * min(water, 1.0) + max(water - 1.0, 0.0) - relief, 0.0, 1.0);
+}
+
+// The same at p on a surface with a unit normal; none on slopes.
 float weather_puddle(vec3 p, vec3 normal, float relief)
 {
-    float water = weather_water(p);
-    float level = 6.0 * min(water, 1.0) + max(water - 1.0, 0.0);
-    return clamp(level - relief, 0.0, 1.0) * smoothstep(0.90, 0.98, normal.y);
+    return weather_pooled(weather_water(p), relief) * smoothstep(0.90, 0.98, normal.y);
 }
 
 // 0 to 1: how dark and glossy so much water makes a surface that can soak it up.
