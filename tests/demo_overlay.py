@@ -20,7 +20,12 @@ from demo_game.ui.surface import prepare_for_pyglet, read_pixels
 from demo_game.ui.theme import Text
 
 # Screens, each with how wet the letter is
-SHOWN = (*((screen, 0.62) for screen in Screen), (Screen.END, 1.0))
+SHOWN = (
+    *((screen, 0.62) for screen in Screen),
+    (Screen.END, 1.0),
+    (Screen.PLAY, 0.1),
+    (Screen.PLAY, 0.9),
+)
 SIZES = ((1280, 720), (640, 360), (800, 600), (900, 360))
 
 

@@ -13,12 +13,15 @@ import pytest
 
 from demo_game.entities import CENTER, RADII
 from demo_game.game import START, Game
+from demo_game.letter import State
 from demo_game.place import Place
 from demo_game.play_keys import play_key
 from demo_game.player import Intent
 from demo_game.settings import Settings
+from demo_game.showers import Showers
 from demo_game.tours import make_tour
 from weather_ecs.errors import InvalidValueError
+from weather_ecs.presets import PRESETS
 
 SIZE = (96, 54)
 
@@ -166,6 +169,86 @@ def test_time_of_day_changes_the_picture(game: Game, target: moderngl.Framebuffe
         game.update(1 / 60)
         dusk = picture(game, target).mean()
     assert dusk < 0.7 * afternoon
+
+
+def take_letter(game: Game) -> None:
+    x, floor, z = game.place.room
+    game.player.place_at(x - 0.6, z + 0.1, yaw=0.0, y=floor)
+    game.update(1 / 60)
+
+
+def test_the_letter_is_taken_carried_and_lost(game: Game, target: moderngl.Framebuffer) -> None:
+    assert game.letter.state is State.LYING
+    assert "cabin" in (game.take_news() or "")
+    game.player.place_at(*game.place.letter[::2], yaw=0.0)  # high above the table's floor
+    game.player.position[1] += 4.0
+    game.update(1e-4)
+    assert game.letter.state is State.LYING
+    take_letter(game)
+    assert game.letter.state is State.CARRIED
+    assert "dry" in (game.take_news() or "")
+    assert game.take_news() is None
+    for _ in range(30):
+        game.update(1 / 30)
+    assert game.letter.wetness == 0.0
+    assert game.letter.sheltered
+    game.player.place_at(-5.0, -66.0, yaw=0.0)
+    while game.letter.state is State.CARRIED and game.time < 120.0:
+        game.update(1 / 10)
+    assert game.letter.state is State.RUINED
+    assert 24.0 < game.letter.time < 32.0  # 0.08 mm of 25 mm/h on half a sheet, and a second
+    game.again()
+    assert game.letter.state is State.LYING
+    assert game.player.position[1] == pytest.approx(game.place.room[1], abs=0.02)
+    game.update(1 / 60)
+    picture(game, target)
+    assert game.letter.state is State.LYING  # one has to go to the table
+
+
+def test_the_letter_on_the_table_is_seen_until_it_is_taken(
+    game: Game, target: moderngl.Framebuffer
+) -> None:
+    x, _, z = game.place.letter
+    pictures = []
+    for take in (False, True):
+        if take:
+            take_letter(game)
+        game.player.place_at(x + 0.2, z + 0.9, yaw=0.2)
+        game.player.pitch = -0.8
+        game.pose = game.player.pose()
+        pictures.append(picture(game, target))
+    assert (abs(pictures[0] - pictures[1]).max(axis=2) > 40).sum() > 20
+
+
+def test_the_letter_is_delivered(game: Game) -> None:
+    take_letter(game)
+    x, _, z = game.place.mailbox
+    game.player.place_at(x + 3.0, z, yaw=math.pi / 2)
+    for _ in range(60):
+        game.update(1 / 30, Intent(forward=1.0))
+    assert game.letter.state is State.DELIVERED
+    assert game.letter.wetness < 0.05
+
+
+def test_the_rain_has_lulls_in_play_and_none_on_tours(ctx: moderngl.Context, place: Place) -> None:
+    tour = make_tour("still", place, 1.0)
+    for used in (None, tour):
+        game = Game(ctx, Settings(quality="low"), place=place, tour=used)
+        rates = []
+        for _ in range(140):
+            game.update(0.5)
+            rates.append(game.areas[0].rain_rate)
+        full = PRESETS["heavy"].rain_rate
+        if used is tour:
+            assert rates == [full] * len(rates)
+            assert game.letter.state is State.LYING
+        else:
+            showers = Showers(0)
+            expected = [full * showers.share(0.5 * (k + 1)) for k in range(len(rates))]
+            assert rates == pytest.approx(expected)
+            assert min(rates) < 0.2 * full < max(rates) == full
+        assert game.areas[1].rain_rate == pytest.approx(0.6 * full)
+        game.close()
 
 
 def test_settings_take_effect_without_losing_the_weather(

@@ -17,7 +17,7 @@ def test_every_screen_at_every_size() -> None:
         report = json.loads(screen.python(Path(__file__).parent / "demo_overlay.py"))
     assert report["problems"] == []
     changed = report["changed"]
-    assert len(changed) == 24
+    assert len(changed) == 32
     assert all(share > 0.02 for share in changed.values()), changed
     assert all(changed[name] > 0.4 for name in changed if name.startswith(("pause", "help")))
     assert all(changed[name] > 0.1 for name in changed if name.startswith(("start", "end")))

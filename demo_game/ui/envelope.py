@@ -59,8 +59,8 @@ class Envelope:
             self._blots.append(
                 (
                     (shapes.Circle(*at, SOAKED * r, color=INK, batch=batch, group=soaked), 70),
-                    (shapes.Line(*at, *end, r, color=INK, batch=batch, group=blots), 150),
-                    (shapes.Circle(*end, 0.8 * r, color=INK, batch=batch, group=blots), 190),
+                    (shapes.Line(*at, *end, 0.9 * r, color=INK, batch=batch, group=blots), 150),
+                    (shapes.Circle(*end, 0.55 * r, color=INK, batch=batch, group=blots), 190),
                     (shapes.Circle(*at, r, color=INK, batch=batch, group=blots), 210),
                 )
             )

@@ -20,7 +20,7 @@ from demo_game.ui.theme import (
     Rgba,
 )
 
-WIDTH, HEIGHT = 232.0, 66.0  # units
+WIDTH, HEIGHT = 270.0, 66.0  # units
 ICON = 56.0
 BAR = 8.0
 SIZE = 15.0
