@@ -55,7 +55,7 @@ def _tree_mesh(trees: Trees) -> tuple[NDArray, NDArray]:
     return np.concatenate(vertices).astype("f4"), np.concatenate(indices).astype("u4")
 
 
-def _ground_mesh(terrain: Terrain, step: float = 5.0) -> tuple[NDArray, NDArray]:
+def _ground_mesh(terrain: Terrain, step: float = 2.0) -> tuple[NDArray, NDArray]:
     xs, zs = np.arange(-110.0, 110.1, step), np.arange(-175.0, 100.1, step)
     gx, gz = np.meshgrid(xs, zs)
     vertices = np.stack([gx, np.asarray(terrain.height(gx, gz)), gz], -1).reshape(-1, 3)

@@ -16,6 +16,7 @@ from weather_ecs.gpu.streak_list import CULL, StreakList
 
 GROUP = 128  # drops in a work group; also in rain_step.comp
 SHELTER_UNIT = 1
+SMALLEST_LIST = 4096  # impacts
 # A set that no view has used for so many draws is given back.
 _KEPT_DRAWS = 600
 # The last tenth of the drops in use fades in; also in systems/rain_view.py.
@@ -44,7 +45,7 @@ class RainPass:
         *,
         backend: str,
         seed: int,
-        impact_capacity: int = 4096,
+        impact_capacity: int | None = None,
     ) -> None:
         self._ctx = ctx
         self._seed = seed
@@ -95,8 +96,9 @@ class RainPass:
         moved = 0
         seen = self._observed.get(view.key)
         if seen is None:
-            impacts = ImpactList(self._ctx, self._capacity) if self._lists else None
-            seen = self._observed[view.key] = _Observed({}, impacts)
+            seen = self._observed[view.key] = _Observed({}, None)
+        if self._lists:
+            self._make_room(seen, view)
         if seen.impacts is not None and sheltered:
             seen.impacts.begin_frame()
         self._step_block.bind()
@@ -116,6 +118,17 @@ class RainPass:
                 seen.sets.pop(key).release()
         self._forget()
         return moved
+
+    def _make_room(self, seen: _Observed, view: ViewData) -> None:
+        """A list of impacts that holds those of half a second, whatever the number of drops."""
+        wanted = self._capacity
+        if wanted is None:
+            drops = max((len(container.births) for container in view.containers), default=0)
+            wanted = max(SMALLEST_LIST, drops // 4)
+        if seen.impacts is None or seen.impacts.capacity < wanted:
+            if seen.impacts is not None:
+                seen.impacts.release()
+            seen.impacts = ImpactList(self._ctx, wanted)
 
     def _move(
         self,
@@ -138,7 +151,7 @@ class RainPass:
         data["rain_count"] = count
         data["rain_fresh"] = 0 if drops.placed is None else drops.alive
         data["rain_time"] = view.frame.time
-        data["impact_capacity"] = self._capacity
+        data["impact_capacity"] = impacts.capacity if impacts is not None else 0
         self._step_block.upload()
         if self._lists:
             drops.births.bind_to_storage_buffer(0)

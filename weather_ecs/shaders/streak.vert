@@ -3,6 +3,7 @@
 #include "drop_law.glsl"
 #include "drop_weight.glsl"
 #include "landed.glsl"
+#include "drop_light.glsl"
 #include "encode.glsl"
 #include <block:RainView>
 
@@ -51,18 +52,6 @@ void main()
     vs_head = head;
     vs_tail = tail;
 
-    // A drop shows the sky of the half behind it, upside down; towards the sun it flares.
-    vec3 ray = normalize(p - camera_position.xyz);
-    float glow = pow(max(dot(ray, sun_direction.xyz), 0.0), 8.0);
-    vec3 light = drop_color.rgb + sun_color.rgb * (0.6 * glow);
-    for (int i = 0; i < light_count; ++i) {
-        vec3 away = light_position[i].xyz - p;
-        float r2 = dot(away, away);
-        float fade = max(1.0 - r2 / (light_position[i].w * light_position[i].w), 0.0);
-        if (fade > 0.0) {
-            float forward = 0.35 + 0.65 * pow(max(dot(ray, away * inversesqrt(r2)), 0.0), 4.0);
-            light += light_color[i].rgb * (fade * fade * forward / (1.0 + 0.5 * r2));
-        }
-    }
+    vec3 light = drop_light(p, normalize(p - camera_position.xyz));
     vs_color = vec4(encode(light), opacity);
 }
