@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from benchmarks.collisions import COUNTS, PAPER, frame_ratios
+from benchmarks.collisions import COUNTS, PAPER, Work, frame_ratios
 from benchmarks.harness import Timings
 from benchmarks.models.scene import HUT, Scene, ground, hut, steps
 from benchmarks.models.stage import Stage
@@ -48,6 +48,8 @@ def test_collisions_compares_with_without_and_the_backends(tmp_path: Path) -> No
     assert {
         "collision_share",
         "compute_over_feedback",
+        "collision_share_work",
+        "compute_over_feedback_work",
         "cpu_4m_over_05m",
         "cpu_ms_4m",
     } <= set(ratios)
@@ -73,6 +75,23 @@ def test_the_worst_count_is_what_counts() -> None:
     assert ratios["collision_share_2000000"] == pytest.approx(0.2)
     assert ratios["compute_over_feedback"] == pytest.approx(1.2)
     assert ratios["compute_over_feedback_500000"] == pytest.approx(1.5)
+
+
+def test_work_is_counted_by_frame(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr("benchmarks.collisions.process_time", lambda: now[0])
+    work = Work(lambda: None)
+    for name, frames, seconds in (("a", 1, 9.0), ("a", 2, 1.0), ("b", 1, 3.0), ("a", 2, 2.0)):
+        now[0] += 100.0  # what comes between two samples counts for nothing
+        work.before(name)
+        work.finish()
+        for _ in range(frames):
+            work.frame()
+            now[0] += seconds
+        work.finish()
+    assert work.seconds == {"a": [9.0, 1.0, 2.0], "b": [3.0]}
+    kept = work.timings(Timings({"a": [0.5, 0.5], "b": [0.5]}, {}))
+    assert kept.seconds == {"a": [1.0, 2.0], "b": [3.0]}  # the first of a's was not timed
 
 
 def test_the_papers_collisions_cost_fifteen_percent() -> None:
