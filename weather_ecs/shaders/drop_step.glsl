@@ -101,25 +101,29 @@ bool keep_in_container(uint id, float s, vec2 drift, inout vec3 p)
 }
 
 #ifdef SHELTER
-// Where the way from a to b meets the surface: true for a hit, which is exact and not the step's
-// end. A way that crosses an edge of the map far below the surface beside it has come in from the
-// side, under an overhang: that is no hit.
-bool meets(vec3 a, vec3 b, out vec3 hit)
+// Where the way from a to b, places of the map, meets the surface, as a share of it: true for a hit,
+// which is exact and not the step's end. A way that crosses an edge of the map far below the surface
+// beside it has come in from the side, under an overhang: that is no hit.
+bool meets(vec3 a, vec3 b, out float share, out vec3 normal)
 {
     float low = 0.0;
-    float high = 1.0;
+    share = 1.0;
     for (int i = 0; i < 12; ++i) {
-        float middle = 0.5 * (low + high);
-        if (below_surface(shelter_place(mix(a, b, middle))) > 0.0) high = middle;
+        float middle = 0.5 * (low + share);
+        if (below_surface(mix(a, b, middle)) > 0.0) share = middle;
         else low = middle;
     }
-    hit = mix(a, b, high);
-    return below_surface(shelter_place(hit)) < 0.25;
+    vec3 m = mix(a, b, share);
+    vec2 part;
+    vec4 c = shelter_corners(m.xy, part);
+    normal = corners_normal(c, part);
+    return below_corners(m, c, part) < 0.25;
 }
 #endif
 
-// True where the drop has hit something in this step; v is then the hit, see landed.glsl.
-bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
+// True where the drop has hit something in this step; v is then the hit, see landed.glsl, and normal
+// that of the surface.
+bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v, out vec3 normal)
 {
     float s = birth.z;
     float fall = drop_speed(drop_diameter(birth.w, rain_law));
@@ -143,6 +147,7 @@ bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
         motion = drift;
     }
     bool hits = false;
+    normal = vec3(0.0, 1.0, 0.0);
     vec3 hit = vec3(0.0);
 #ifdef SHELTER
     vec3 m = shelter_place(p);
@@ -151,8 +156,9 @@ bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
         hit = vec3(p.x, NO_IMPACT, p.z);
         vec3 m0 = shelter_place(before);
         if (!elsewhere && in_shelter_map(m0) && below_texel(m0) <= 0.0) {
-            vec3 at;
-            hits = meets(before, p, at);
+            float share;
+            hits = meets(m0, m, share, normal);
+            vec3 at = mix(before, p, share);
             if (hits) hit = vec3(at.x, at.y + LANDED, at.z);
         }
         v = hit;

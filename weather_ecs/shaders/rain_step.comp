@@ -17,7 +17,8 @@ void main()
     vec4 birth = births[id];
     vec3 p = vec3(drops[k], drops[k + 1u], drops[k + 2u]);
     vec3 v = vec3(drops[k + 3u], drops[k + 4u], drops[k + 5u]);
-    bool hits = step_drop(id, birth, p, v);
+    vec3 normal;
+    bool hits = step_drop(id, birth, p, v, normal);
     drops[k] = p.x;
     drops[k + 1u] = p.y;
     drops[k + 2u] = p.z;
@@ -32,7 +33,6 @@ void main()
         float diameter = drop_diameter(birth.w, rain_law);
         float speed = drop_speed(diameter);
         float age = max(at.y - p.y, 0.0) / max(speed, 0.1);
-        vec3 normal = surface_normal(shelter_place(at).xy);
         if (weight > 0.0)
             append_impact(at, rain_time - age, normal, diameter, speed, weight, birth.w);
     }

@@ -11,7 +11,8 @@ void main()
 {
     vec3 p = in_position;
     vec3 v = in_velocity;
-    step_drop(uint(gl_VertexID), in_birth, p, v);
+    vec3 normal;
+    step_drop(uint(gl_VertexID), in_birth, p, v, normal);
     out_position = p;
     out_velocity = v;
     gl_Position = vec4(0.0);

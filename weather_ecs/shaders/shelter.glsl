@@ -46,25 +46,39 @@ bool is_edge(vec4 c)
     return (high - low) * shelter_size.y > SHELTER_EDGE;
 }
 
+// Metres by which a place lies below the surface between four texels, as below_texel where they are
+// an edge.
+float below_corners(vec3 m, vec4 c, vec2 part)
+{
+    vec2 row = part.y < 0.5 ? c.xy : c.zw;
+    float depth = is_edge(c) ? (part.x < 0.5 ? row.x : row.y)
+                             : mix(mix(c.x, c.y, part.x), mix(c.z, c.w, part.x), part.y);
+    return (m.z - depth) * shelter_size.y;
+}
+
 // As below_texel, against the surface that slopes between the texels.
 float below_surface(vec3 m)
 {
     vec2 part;
     vec4 c = shelter_corners(m.xy, part);
-    if (is_edge(c)) return below_texel(m);
-    float depth = mix(mix(c.x, c.y, part.x), mix(c.z, c.w, part.x), part.y);
-    return (m.z - depth) * shelter_size.y;
+    return below_corners(m, c, part);
 }
 
-// Upward normal of the surface at a place of the map; straight up at an edge.
-vec3 surface_normal(vec2 uv)
+// Upward normal of the surface between four texels; straight up at an edge.
+vec3 corners_normal(vec4 c, vec2 part)
 {
-    vec2 part;
-    vec4 c = shelter_corners(uv, part);
     if (is_edge(c)) return vec3(0.0, 1.0, 0.0);
     // Rise along x and z of the map, m per m; the map is sheared by the fall, the world is not.
     vec2 rise = vec2(mix(c.x - c.y, c.z - c.w, part.y), mix(c.x - c.z, c.y - c.w, part.x))
         * (shelter_size.y / shelter_size.z);
     vec2 slope = rise / max(1.0 - dot(rise, shelter_fall.xy), 0.2);
     return normalize(vec3(-slope.x, 1.0, -slope.y));
+}
+
+// The same at a place of the map.
+vec3 surface_normal(vec2 uv)
+{
+    vec2 part;
+    vec4 c = shelter_corners(uv, part);
+    return corners_normal(c, part);
 }

@@ -40,11 +40,18 @@ class ShelterIndex:
         self._slope = (0.0, 0.0)
         self._cost = 0.0  # s, of the last update
         self._made = (-math.inf, -math.inf)  # weather's clock and the machine's, s
+        self._due: tuple[tuple[OccluderData, ...], tuple[float, float], float] | None = None
 
     def update(
         self, occluders: tuple[OccluderData, ...], slope: tuple[float, float], time: float
     ) -> None:
-        """Take over what the frame knows; cheap where nothing has changed."""
+        """What the frame knows: taken over when somebody asks, so that a draw pays nothing."""
+        self._due = (occluders, slope, time)
+
+    def _catch_up(
+        self, occluders: tuple[OccluderData, ...], slope: tuple[float, float], time: float
+    ) -> None:
+        self._due = None
         if occluders is self._seen and slope == self._slope:
             return
         now = perf_counter()
@@ -63,6 +70,8 @@ class ShelterIndex:
 
     def covers(self, x: float, y: float, z: float) -> bool:
         """Whether something at least MARGIN above the point keeps the rain off it."""
+        if self._due is not None:
+            self._catch_up(*self._due)
         level = y + MARGIN
         u, w = x + y * self._slope[0], z + y * self._slope[1]
         return self._still.covers(u, w, level) or self._moving.covers(u, w, level)
