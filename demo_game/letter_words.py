@@ -6,7 +6,7 @@ from enum import Enum
 
 from demo_game.letter import Letter, State
 
-STAGES = ((0.03, "dry"), (0.25, "a bit damp"), (0.50, "damp"), (0.75, "wet"), (2.0, "soaking"))
+STAGES = ((0.03, "dry"), (0.25, "moist"), (0.50, "damp"), (0.75, "wet"), (2.0, "soaking"))
 NO_RAIN = 0.05  # mm/h, less than that is not worth a word
 GRADES = (
     (0.03, "It is in the mailbox, without a drop on it."),
