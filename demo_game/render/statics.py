@@ -19,6 +19,7 @@ CABIN_NEAR = 44.0  # m, within which the cabin has all its planks
 SHOWN = {"room": (0.0, CABIN_NEAR), "letter": (0.0, CABIN_NEAR), "cabin": (0.0, CABIN_NEAR),
          "cabin_far": (CABIN_NEAR, 1e9), "mailbox": (0.0, 160.0), "yard": (0.0, 110.0),
          "lamps": (0.0, 220.0), "fences": (0.0, 150.0), "rocks": (0.0, 110.0)}  # fmt: skip
+GRAIN_UNIT = 1  # where the scene binds the detail map
 PARTS = 12
 ACTOR_REACH = 170.0  # m
 
@@ -60,6 +61,7 @@ class Statics:
         self._shadow_count = index_count - place.meshes["cabin_far"].indices.size
         whole = (self._vertices, VERTEX_FORMAT, *VERTEX_NAMES)
         self._array = ctx.vertex_array(self.program, [whole], self._indices)
+        self._close = ctx.sampler(filter=(moderngl.LINEAR, moderngl.LINEAR))
         bare = (self._vertices, "3f4 16x1", "in_position")
         self._shadow_array = ctx.vertex_array(self.shadow, [bare], self._indices)
 
@@ -70,8 +72,13 @@ class Statics:
         switch = geometry.box_distance(camera, *self._switch)
         seen &= (switch >= self._reach[:, 0]) & (switch < self._reach[:, 1])
         chosen = np.flatnonzero(seen & ~self._hidden)
+        inside = switch.min() == 0.0
+        if inside:  # the picture is full of boards, all of them close
+            self._close.use(GRAIN_UNIT)
         for first, count in self._ranges[chosen[np.argsort(away[chosen])]].tolist():
             self._array.render(vertices=count, first=first)
+        if inside:
+            self._close.clear(GRAIN_UNIT)
 
     def show(self, name: str, shown: bool) -> None:
         """Show a mesh or leave it out; its shadow stays."""
@@ -85,7 +92,7 @@ class Statics:
     def release(self) -> None:
         """Give everything back."""
         release_all((self._array, self._shadow_array, self._vertices, self._indices))
-        release_all((self.program, self.shadow))
+        release_all((self._close, self.program, self.shadow))
 
 
 class Actors:
