@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from weather_ecs.errors import InvalidValueError
-from weather_ecs.physics.camera import camera_from, wrap_angle
 
 from tests.views import look_from, perspective
+from weather_ecs.errors import InvalidValueError
+from weather_ecs.physics.camera import camera_from, wrap_angle
 
 
 @given(

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from weather_ecs.physics import ellipse
 from weather_ecs.physics.camera import wrap_angle
 from weather_ecs.physics.container import (

@@ -9,6 +9,8 @@ from types import SimpleNamespace
 import moderngl
 import numpy as np
 import pytest
+
+from tests.views import look_from, perspective
 from weather_ecs.frame import AREA_DTYPE, DropLook, FrameData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.heightmap import Footprint
@@ -19,8 +21,6 @@ from weather_ecs.physics import rain_step
 from weather_ecs.physics.camera import camera_from
 from weather_ecs.physics.shelter import ShelterMap
 from weather_ecs.systems.rain_view import RainView
-
-from tests.views import look_from, perspective
 
 # Without a complete framebuffer some drivers write nothing in transform feedback.
 pytestmark = pytest.mark.usefixtures("target")
@@ -50,10 +50,11 @@ def areas(*rows: tuple[tuple[float, float], tuple[float, float], float]) -> np.n
 
 
 def states(rain: RainPass) -> dict[int, np.ndarray]:
-    return {
-        key: np.frombuffer(drops.states[drops.current].read(), np.float32).reshape(-1, 6)[: drops.alive]
-        for key, drops in rain.sets().items()
-    }
+    found = {}
+    for key, drops in rain.sets().items():
+        state = np.frombuffer(drops.states[drops.current].read(), np.float32)
+        found[key] = state.reshape(-1, 6)[: drops.alive]
+    return found
 
 
 def walk(

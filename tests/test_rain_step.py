@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+
 from weather_ecs.physics import rain_step
 from weather_ecs.physics.container import Area, Container, ContainerSettings, births, place
 from weather_ecs.physics.drops import diameter_quantile, terminal_speed
