@@ -247,7 +247,7 @@ def test_includes_are_taken_in_once() -> None:
     text = programs.source("object.vert")
     assert text.count("uniform Frame") == 1
     assert "#include" not in text
-    with pytest.raises(InvalidValueError, match="nothing.frag"):
+    with pytest.raises(InvalidValueError, match=r"nothing\.frag"):
         programs.source("nothing.frag")
 
 
