@@ -11,12 +11,13 @@ import moderngl
 import numpy as np
 import pytest
 
+from tests.boxes import CORNERS, TRIANGLES, placed
 from tests.ripple_stage import ONTO, data_of, only_grid, rain, read, renderer_of
 from tests.views import perspective
 from tests.weather_pictures import Stage, stage
 from tests.worlds import fresh_world
 from weather_ecs import InvalidValueError, Weather, glsl
-from weather_ecs.components import Observer, PointLight, RippleSurface
+from weather_ecs.components import Observer, Occluder, PointLight, RippleSurface
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.ripple_pass import BUDGET
 from weather_ecs.physics import ripple, ripple_place
@@ -142,6 +143,22 @@ def test_the_sheet_shows_sky_depth_and_rings(made: Stage) -> None:
     assert rough[1] > 3.0 * rough[0]
     surface.draw = False
     assert not (made.rain(made.play(1, **ONTO)) > 1.0).any()
+
+
+def test_far_water_is_calm_under_a_roof(made: Stage) -> None:
+    """Beyond what is computed too, where the pattern of the near water is shown again."""
+    esper.create_entity(RippleSurface((15.0, 0.0, 0.0), (29.0, 29.0), amplitude=3.0))
+    esper.create_entity(rain(100.0))
+    roof = placed((11.0, 6.0, -5.0), (5.0, 0.1, 4.0))
+    esper.create_entity(Occluder(CORNERS, TRIANGLES, roof))
+    made.play(30, **ONTO)
+    renderer: Any = renderer_of(made)
+    renderer._draw_drops = renderer._draw_veils = lambda view: None
+    picture = made.play(1, position=(0.0, 1.7, 0.0), heading=0.0, pitch=-0.15).astype(float)
+    rough = abs(np.diff(picture.mean(axis=2), axis=1))[40:47]  # 8 to 14 m off
+    # North, where z is below 0, is on the left.
+    covered, open_water = rough[:, 35:65].mean(), rough[:, 95:125].mean()
+    assert open_water > 2.0 * covered
 
 
 def test_clear_shallow_water_lets_the_bottom_show(ctx: moderngl.Context) -> None:

@@ -49,6 +49,7 @@ class RipplePass:
         self._maps: dict[tuple[int, int], RippleMap] = {}
         self._waters = _as_arrays(())
         self._seen: list[RippleData] = []
+        self._sheltered = False
         self._draws = 0
 
     def grids(self, observer: int = 0) -> dict[int, RippleGrid]:
@@ -73,7 +74,7 @@ class RipplePass:
         if frame.ripples is not self._waters.surfaces:
             self._waters = _as_arrays(frame.ripples)
         waters = self._waters
-        self._seen = []
+        self._seen, self._sheltered = [], sheltered
         if waters.surfaces:
             shown = ripple_place.in_view(waters.corners, view.projection @ view.view)
             away = ripple_place.distances(
@@ -120,7 +121,7 @@ class RipplePass:
 
         Blending, the depth test and no depth writes are the caller's.
         """
-        self._sheet.begin(view.frame, depth)
+        self._sheet.begin(view.frame, depth, self._sheltered)
         for surface in reversed(self._seen):
             if surface.draw:
                 self._sheet.draw(surface, self.map(view.key, surface))

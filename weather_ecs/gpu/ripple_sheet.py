@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -11,13 +12,13 @@ from numpy.typing import NDArray
 
 from weather_ecs.frame import LIGHT_DTYPE, FrameData, RippleData, empty
 from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.rain_pass import SHELTER_UNIT
 from weather_ecs.gpu.ripple_blocks import MAX_AREAS, RIPPLE_SHEET
 from weather_ecs.gpu.ripple_map import RippleMap
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.ripple import roughness
 
 DRAW = ProgramKey(vertex="ripple_sheet.vert", fragment="ripple_sheet.frag")
-LAMPLIT = replace(DRAW, defines=("LAMPS",))
 DEPTH_UNIT, MAP_UNIT = 0, 2
 _VERTICES = 12 * 12 * 6  # as in ripple_sheet.vert
 
@@ -26,16 +27,25 @@ class RippleSheet:
     """A level sheet per surface: sky by Fresnel's share, the water's colour by depth, the sun."""
 
     def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader) -> None:
-        self._programs = [shaders.program(DRAW), shaders.program(LAMPLIT)]
-        self._arrays = [ctx.vertex_array(program, []) for program in self._programs]
-        for program in self._programs:
+        self._arrays: dict[tuple[bool, bool], moderngl.VertexArray] = {}
+        for lit, sheltered in itertools.product((False, True), repeat=2):
+            defines = ("LAMPS",) * lit + ("SHELTER",) * sheltered
+            program = shaders.program(replace(DRAW, defines=defines))
             program["scene_depth"] = DEPTH_UNIT
+            if sheltered:
+                program["shelter_map"] = SHELTER_UNIT
+            self._arrays[lit, sheltered] = ctx.vertex_array(program, [])
+        self._sheltered = False
         self._light = np.ones(3)
         self._lamps = empty(LIGHT_DTYPE)
         self._block = BlockBuffer(ctx, RIPPLE_SHEET)
 
-    def begin(self, frame: FrameData, depth: moderngl.Texture) -> None:
-        """What all surfaces of a frame share; blending and the depth test are the caller's."""
+    def begin(self, frame: FrameData, depth: moderngl.Texture, sheltered: bool) -> None:
+        """What all surfaces of a frame share; blending and the depth test are the caller's.
+
+        `sheltered`: as for the rain.
+        """
+        self._sheltered = sheltered
         depth.use(DEPTH_UNIT)
         self._block.bind()
         data, sky = self._block.data, frame.sky
@@ -57,9 +67,9 @@ class RippleSheet:
         data["sheet_color"] = (*color.tolist(), 1.0 / surface.clarity)
         data["sheet_window"] = ripples.window
         self._block.upload()
-        lit = self._lamps_reach(surface)
-        ripples.use(self._programs[lit], MAP_UNIT)
-        self._arrays[lit].render(moderngl.TRIANGLES, vertices=_VERTICES)
+        array = self._arrays[self._lamps_reach(surface), self._sheltered]
+        ripples.use(array.program, MAP_UNIT)
+        array.render(moderngl.TRIANGLES, vertices=_VERTICES)
 
     def _lamps_reach(self, surface: RippleData) -> bool:
         away = np.linalg.norm(self._lamps["position"] - surface.center, axis=1)
@@ -79,6 +89,6 @@ class RippleSheet:
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
-        for array in self._arrays:
+        for array in self._arrays.values():
             array.release()
         self._block.release()

@@ -3,6 +3,9 @@
 #include <block:RippleSheet>
 #include "encode.glsl"
 #include "ripple_sample.glsl"
+#ifdef SHELTER
+#include "shelter.glsl"
+#endif
 
 uniform sampler2D scene_depth;
 
@@ -17,6 +20,17 @@ float water_path(float step, float away)
     float depth = texelFetch(scene_depth, ivec2(gl_FragCoord.xy - view_origin.xy), 0).r;
     float along = depth < 1.0 ? view_depth.y / (depth * 2.0 - 1.0 + view_depth.x) : 1e6;
     return max(along * step - away, 0.0);
+}
+
+// Share of the full rain that reaches the water here.
+float rain_on(vec2 xz)
+{
+    float share = min(vs_rain.x, 1.0);
+#ifdef SHELTER
+    vec3 m = shelter_place(vec3(xz.x, sheet_body.z, xz.y));
+    if (in_shelter_map(m) && below_texel(m) > 0.1) share = 0.0;
+#endif
+    return share;
 }
 
 void main()
@@ -34,10 +48,14 @@ void main()
     float blur = away * inversesqrt(steep) / camera_position.w;
     vec2 off = abs(vs_own - sheet_window.xy) - sheet_window.zw;
     float outside = clamp(max(off.x, off.y) * 2.0, 0.0, 1.0);
-    vec2 slope = ripple_slope(vs_ray.xz + camera_position.xz, blur);
-    slope *= 1.0 - outside * max(1.0 - vs_rain.x, 0.0);
+    vec2 xz = vs_ray.xz + camera_position.xz;
+    vec2 slope = ripple_slope(xz, blur);
+    // Waves run a little way in under a roof: its edge on the water is theirs.
+    float rain = rain_on(xz + 6.0 * slope);
+    // Outside of what is computed the pattern comes again, but only where it rains.
+    slope *= 1.0 - outside * (1.0 - rain);
     // What is too small to be seen by itself still turns the light.
-    float rough = vs_rain.y * clamp(blur * 10.0 - 0.2, 0.0, 1.0);
+    float rough = vs_rain.y * step(1e-3, rain) * clamp(blur * 10.0 - 0.2, 0.0, 1.0);
 
     vec3 normal = vec3(-slope.x, 1.0, -slope.y);
     float facing = abs(dot(ray, normal));
@@ -48,7 +66,7 @@ void main()
     vec3 light = mix(sheet_horizon.rgb, sheet_zenith.rgb, sqrt(rise));
     // The sun's image and those of lamps, spread over the slopes of what is too small to be seen.
     float sharp = 500.0 / (1.0 + 4e4 * rough * rough);
-    light += sun_color.rgb * (0.02 * sharp * exp(sharp * (dot(mirrored, sun_direction.xyz) - 1.0)));
+    light += sun_color.rgb * (0.01 * sharp * exp(sharp * (dot(mirrored, sun_direction.xyz) - 1.0)));
 #ifdef LAMPS
     vec3 place = vs_ray + camera_position.xyz;
     for (int i = 0; i < light_count; ++i) {
