@@ -1,0 +1,377 @@
+"""Water on the ground: the law, and the weather's own coarse field of it, without OpenGL."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import esper
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.rain_frames import area
+from tests.worlds import fresh_world
+from weather_ecs import Weather
+from weather_ecs.components import Occluder, RainArea
+from weather_ecs.errors import InvalidValueError
+from weather_ecs.frame import AREA_DTYPE
+from weather_ecs.physics.wet_field import open_water
+from weather_ecs.physics.wetness import (
+    DRAINING,
+    DRYING,
+    FILM,
+    STEEP_FILM,
+    film_capacity,
+    merge,
+    settle,
+    settle_one,
+)
+from weather_ecs.systems.wet_ground import STEPS, WetGround
+from weather_ecs.systems.wet_tiles import MOST_TILES, WetTiles, level_of
+
+water = st.floats(0.0, 10.0)
+inflows = st.one_of(st.just(0.0), st.floats(1e-6, 3.0))
+capacities = st.floats(0.3, 60.0)
+times = st.floats(0.0, 5000.0)
+
+
+@pytest.fixture(autouse=True)
+def world():
+    with fresh_world() as name:
+        yield name
+
+
+# The law
+
+
+@settings(deadline=None, max_examples=40)
+@given(water, inflows, capacities, st.floats(0.0, 600.0))
+def test_the_law_solves_its_equation(w, s, c, seconds):
+    steps = 20_000
+    expected, dt = w, seconds / steps
+    for _ in range(steps):
+        expected += dt * (s - expected / DRYING - max(expected - c, 0.0) / DRAINING)
+    assert settle_one(w, s, c, seconds) == pytest.approx(expected, rel=2e-3, abs=1e-3)
+
+
+@settings(deadline=None, max_examples=200)
+@given(st.lists(st.tuples(water, inflows, capacities), min_size=1, max_size=6), times, times)
+def test_two_steps_are_one(cells, first, second):
+    w, s, c = np.array(cells).T
+    once = settle(w, s, c, first + second)
+    twice = settle(settle(w, s, c, first), s, c, second)
+    np.testing.assert_allclose(twice, once, rtol=1e-6, atol=1e-9)
+    singly = [settle_one(*cell, first) for cell in cells]
+    np.testing.assert_allclose(singly, settle(w, s, c, first), rtol=1e-12, atol=1e-15)
+
+
+@settings(deadline=None, max_examples=100)
+@given(water, inflows, capacities, times)
+def test_water_stays_between_where_it_was_and_where_it_ends(w, s, c, seconds):
+    end = s * DRYING
+    if end > c:
+        end = (s + c / DRAINING) / (1.0 / DRYING + 1.0 / DRAINING)
+    now = settle_one(w, s, c, seconds)
+    assert min(w, end) - 1e-9 <= now <= max(w, end) + 1e-9
+    assert settle_one(w, s, c, 1e6) == pytest.approx(end, abs=1e-9)
+
+
+def test_steep_surfaces_hold_less():
+    held = film_capacity(np.linspace(0.0, 1.0, 50))
+    assert held[0] == STEEP_FILM and held[-1] == FILM
+    assert (np.diff(held) >= 0.0).all()
+
+
+@given(water, water)
+def test_fields_of_different_areas_fill_one_film(a, b):
+    both = float(merge(a, b))
+    assert max(a, b) - 1e-12 <= both <= a + b
+    assert float(merge(b, a)) == pytest.approx(both)
+    assert float(merge(a, 0.0)) == a
+
+
+# The ground
+
+
+def rain(seconds: float, step: float = 0.5) -> None:
+    for _ in range(round(seconds / step)):
+        esper.process(step)
+
+
+def test_a_minute_of_heavy_rain():
+    weather = Weather()
+    heavy = RainArea((0, 0), (70, 45), 25.0, soft_edge=12.0)
+    esper.create_entity(heavy)
+    rain(60)
+    expected = settle_one(0.0, 25.0 / 3600.0, FILM, 60.0)
+    assert expected == pytest.approx(0.354, abs=1e-3)
+    assert weather.sample((0, 0, 0)).wetness == pytest.approx(expected, rel=1e-4)
+    assert weather.sample((40, 10.0, 5)).wetness == pytest.approx(expected, rel=1e-4)
+    assert 0.0 < weather.sample((67, 0, 0)).wetness < 0.5 * expected
+    assert weather.sample((76, 0, 0)).wetness == 0.0
+    heavy.rain_rate = 0.0
+    rain(DRYING)
+    assert weather.sample((0, 0, 0)).wetness == pytest.approx(expected / math.e, rel=0.02)
+    rain(3600.0, 10.0)
+    assert weather.sample((0, 0, 0)).wetness == 0.0
+    assert not weather._state.wet_ground.tiles
+
+
+def test_wetness_of_a_point_follows_the_law_through_changing_rain():
+    weather = Weather()
+    it = RainArea((0, 0), (60, 60), 5.0)
+    esper.create_entity(it)
+    expected = 0.0
+    for rate, seconds in ((5.0, 30), (80.0, 47), (0.0, 20), (300.0, 65), (0.0, 130), (1.0, 13)):
+        it.rain_rate = rate
+        rain(seconds)
+        expected = settle_one(expected, rate / 3600.0, FILM, seconds)
+        assert weather.sample((1, 0, 2)).wetness == pytest.approx(expected, rel=0.02, abs=2e-3)
+
+
+def test_between_two_ticks_the_wetness_goes_on():
+    weather = Weather()
+    esper.create_entity(RainArea((0, 0), (60, 60), 25.0))
+    before = 0.0
+    for k in range(1, 60):
+        esper.process(0.11)
+        now = weather.sample((0, 0, 0)).wetness
+        assert now == pytest.approx(settle_one(0.0, 25 / 3600, FILM, 0.11 * k), rel=1e-3)
+        assert now > before
+        before = now
+
+
+def test_a_shower_that_passes_leaves_wet_ground_that_dries():
+    weather = Weather()
+    shower = RainArea((0, 0), (40, 40), 60.0, soft_edge=20.0, velocity=(5.0, 0.0))
+    esper.create_entity(shower)
+    seen = []
+    for _ in range(100):
+        rain(1)
+        seen.append(weather.sample((150, 0, 0)).wetness)
+    # It comes at 22 s and is gone at 38 s.
+    assert max(seen[:20]) == 0.0
+    assert np.argmax(seen) in range(36, 41)
+    arrived = np.array([5.0 * t for t in np.arange(0.0, 60.0, 0.1)])
+    depth = np.maximum(40.0 - np.abs(150.0 - arrived), 0.0)
+    share = np.clip(depth / 20.0, 0, 1)
+    total = float((share**2 * (3 - 2 * share)).sum() * 0.1 * 60.0 / 3600.0)
+    assert max(seen) == pytest.approx(total, rel=0.08)
+    assert seen[-1] == pytest.approx(max(seen) * math.exp(-61 / DRYING), rel=0.03)
+
+
+def test_overlapping_areas_add_up_and_never_hold_more_than_a_film():
+    weather = Weather()
+    for size in (20, 80, 400):
+        esper.create_entity(RainArea((0, 0), (size, size), 10.0))
+    rain(40)
+    expected = settle_one(0.0, 30 / 3600, FILM, 40.0)
+    assert weather.sample((0, 0, 0)).wetness == pytest.approx(expected, rel=0.02)
+    rain(1200, 10.0)
+    steady = settle_one(0.0, 30 / 3600, FILM, 1e5)
+    assert weather.sample((0, 0, 0)).wetness == pytest.approx(steady, rel=0.1)
+
+
+def test_how_time_is_cut_into_frames_does_not_matter():
+    states = []
+    for cuts in ((0.05,) * 1000, (0.25,) * 200, (10.0,) * 5, (0.07, 0.13, 0.3) * 100):
+        with fresh_world(), Weather(seed=3) as weather:
+            it = RainArea((0, 0), (50, 20), 12.0, velocity=(3, 1))
+            esper.create_entity(it)
+            for dt in cuts:
+                esper.process(dt)
+            assert weather.stats.time == pytest.approx(50.0)
+            states.append(json.dumps(weather._state.wet_ground.state()))
+    assert len(set(states)) == 1
+
+
+def test_paused_weather_neither_wets_nor_dries():
+    weather = Weather()
+    esper.create_entity(RainArea((0, 0), (60, 60), 25.0))
+    rain(30)
+    weather.paused = True
+    before = weather.sample((0, 0, 0)).wetness
+    rain(30)
+    assert weather.sample((0, 0, 0)).wetness == before > 0.0
+
+
+@pytest.mark.parametrize(
+    "radii", [(1e6, 1e6), (1e6, 1e-3), (1e-3, 1e-3), (0.5, 0.4), (5000, 3), (300, 200)]
+)
+def test_any_size_of_area_takes_a_bounded_number_of_tiles(radii):
+    weather = Weather()
+    esper.create_entity(RainArea((123.0, -77.0), radii, 25.0, heading=0.7, velocity=(1, 0)))
+    rain(20)
+    tiles = sum(map(len, weather._state.wet_ground.tiles.values()))
+    assert tiles < 300
+    if min(radii) >= 0.4 and max(radii) < 100 * min(radii):
+        assert weather.sample((123.0 + 20.0 - 0.1, 0, -77.0)).wetness > 0.0
+
+
+def test_crowded_ground_forgets_the_driest():
+    tiles = WetTiles(0)
+    rows = [area(k, (k * 300.0, 0.0), (60.0, 60.0), 1.0 + k) for k in range(30)]
+    tiles.rain(np.array(rows, AREA_DTYPE), 1.0)
+    tiles.settle(10.0)
+    assert len(tiles) == MOST_TILES
+    tiles.settle(1.0)
+    assert tiles.at(29 * 300.0, 0.0) > 0.0
+    assert tiles.at(0.0, 0.0) == 0.0
+
+
+@given(st.floats(1e-3, 1e6), st.floats(1e-3, 1e6))
+def test_cells_are_as_fine_as_the_area_needs(p, q):
+    a, b = max(p, q), min(p, q)
+    cell = 2.0 ** level_of(a, b)
+    assert math.pi * a * b / cell**2 <= 1024.0001
+    assert a / cell <= 128.0001
+    assert level_of(2 * a, 2 * b) >= level_of(a, b)
+
+
+def test_what_the_gpu_begins_with_is_what_samples_say():
+    weather = Weather()
+    for k, (x, size, speed) in enumerate(((0, 60, 2.0), (120, 40, 0.0), (60, 300, -4.0))):
+        moving = RainArea((x, 0), (size, 0.7 * size), 5.0 + 9 * k, velocity=(speed, 1))
+        esper.create_entity(moving)
+    rain(33.5, 0.1)
+    moving.rain_rate = 2.0
+    rain(0.4, 0.1)
+    frame = weather._frame()
+    wet = frame.wetness
+    points = np.random.default_rng(0).uniform(-250, 350, (500, 2))
+    levels = tuple((tiles.cell, tiles.places, tiles.water) for tiles in wet.levels)
+    rest = frame.time - wet.ticks
+    got = open_water(points, levels, wet.waited, wet.rows, rest, frame.areas)
+    expected = [weather.sample((x, 0, z)).wetness for x, z in points.tolist()]
+    np.testing.assert_allclose(got, expected, atol=1e-6)
+    assert max(expected) > 0.1
+
+
+# Snapshots
+
+
+def wet_weather() -> Weather:
+    weather = Weather(seed=5)
+    esper.create_entity(RainArea((0, -70), (70, 45), 25.0, soft_edge=12.0))
+    esper.create_entity(RainArea((200, 0), (85, 48), 15.0, soft_edge=24, velocity=(5, 0)))
+    return weather
+
+
+def test_a_snapshot_holds_the_wet_ground_and_goes_on_alike():
+    with wet_weather() as first:
+        rain(47.3, 0.1)
+        data = first.snapshot()
+        assert len(data) < 4096
+        assert first.snapshot() == data
+        points = [(x, 0.0, z) for x in range(-80, 400, 37) for z in (-80, -30, 10)]
+        wet = [first.sample(p).wetness for p in points]
+        rain(31, 0.1)
+        later = first.snapshot()
+    with fresh_world(), Weather() as second:
+        second.restore(data)
+        assert [second.sample(p).wetness for p in points] == wet
+        assert second.snapshot() == data
+        rain(31, 0.1)
+        assert second.snapshot() == later
+
+
+def test_restoring_replaces_the_ground_and_says_so():
+    with wet_weather() as weather:
+        dry = weather.snapshot()
+        rain(30)
+        before = weather._frame().wetness.number
+        assert weather.sample((0, 0, -70)).wetness > 0.0
+        weather.restore(dry)
+        assert weather.sample((0, 0, -70)).wetness == 0.0
+        assert weather._frame().wetness.number != before
+
+
+def test_neither_asking_nor_occluders_show_in_a_snapshot():
+    def run(asks: bool) -> bytes:
+        with fresh_world(), wet_weather() as weather:
+            if asks:
+                vertices = np.eye(3) * 9.0 + (0, 5, 0)
+                esper.create_entity(Occluder(vertices, [0, 1, 2], dynamic=True))
+            for _ in range(50):
+                esper.process(0.3)
+                if asks:
+                    weather.sample((0, 0, -70))
+                    weather._frame()
+            return weather.snapshot()
+
+    assert run(True) == run(False)
+
+
+def state() -> dict:
+    with fresh_world(), wet_weather() as weather:
+        rain(20)
+        return json.loads(json.dumps(weather._state.wet_ground.state()))
+
+
+GOOD = state()
+
+
+def test_a_state_comes_back():
+    ground = WetGround.from_state(GOOD)
+    assert json.loads(json.dumps(ground.state())) == GOOD
+    assert ground.steps in range(STEPS)
+
+
+BAD = [
+    ("steps", STEPS),
+    ("steps", -1),
+    ("ticks", 1.5),
+    ("since", 10**9),
+    ("rows", None),
+    ("rows", [[0, [0, 0], [1, 1], 0, 5, 1]]),
+    ("rows", [[0, [0, 0], [1, 1], 0, 0.0, 1, 400]]),
+    ("rows", [[0, [0, 0], [1, 2], 0, 5.0, 1, 400]]),
+    ("rows", [[1, [0, 0], [1, 1], 0, 5.0, 1, 400], [1, [0, 0], [1, 1], 0, 5.0, 1, 400]]),
+    ("tiles", {}),
+    ("tiles", [1]),
+    ("tiles", [{"level": 0, "places": [], "codes": ""}]),
+    ("tiles", [{"level": 99, "places": [[0, 0]], "codes": "00" * 128}]),
+    ("tiles", [{"level": 0, "places": [[0, 0]], "codes": "00" * 127}]),
+    ("tiles", [{"level": 0, "places": [[0, 0]], "codes": "zz" * 128}]),
+    ("tiles", [{"level": 0, "places": [[0, 0]], "codes": "ff" * 128}]),
+    ("tiles", [{"level": 0, "places": [[0, 2**40]], "codes": "00" * 128}]),
+    ("tiles", [{"level": 0, "places": [[1, 0], [0, 0]], "codes": "00" * 256}]),
+    ("tiles", [{"level": 0, "places": [[0, 0]], "codes": "00" * 128}] * 2),
+    ("tiles", [{"level": 0, "places": [[0, 0]]}]),
+]
+
+
+@pytest.mark.parametrize(("name", "value"), BAD)
+def test_bad_states_are_refused(name, value):
+    with pytest.raises(InvalidValueError):
+        WetGround.from_state({**GOOD, name: value})
+    with pytest.raises(InvalidValueError):
+        WetGround.from_state({k: v for k, v in GOOD.items() if k != name})
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.lists(st.floats(0.0, 10.0), min_size=1, max_size=12), st.integers(0, 99))
+def test_any_frame_times_and_areas_keep_it_finite(frames, seed):
+    rng = np.random.default_rng(seed)
+    with fresh_world(), Weather() as weather:
+        areas = [
+            RainArea(
+                tuple(rng.uniform(-300, 300, 2)),
+                sorted(10.0 ** rng.uniform(-1, 4, 2), reverse=True),
+                10.0 ** rng.uniform(-2, 4),
+                soft_edge=10.0 ** rng.uniform(-3, 3),
+                velocity=tuple(rng.uniform(-150, 150, 2)),
+            )
+            for _ in range(3)
+        ]
+        for it in areas:
+            esper.create_entity(it)
+        for dt in frames:
+            esper.process(dt)
+            areas[0].rain_rate = float(rng.choice([0.0, 5.0, 1e4]))
+            for x, z in rng.uniform(-500, 500, (5, 2)).tolist():
+                wetness = weather.sample((x, 0.0, z)).wetness
+                assert 0.0 <= wetness < 60.0
+        assert len(weather.snapshot()) < 400_000
