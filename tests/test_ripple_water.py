@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from tests.boxes import CORNERS, TRIANGLES, placed
+from tests.conftest import living
 from tests.ripple_stage import ONTO, data_of, only_grid, rain, read, renderer_of
 from tests.views import perspective
 from tests.weather_pictures import Stage, stage
@@ -84,21 +85,38 @@ def test_many_waters_take_no_more_cells_than_the_budget(made: Stage) -> None:
     assert max(grids) == BUDGET - 1  # the nearest
 
 
-def test_grids_that_nobody_looks_at_any_more_are_given_back(made: Stage, monkeypatch: Any) -> None:
+def test_grids_are_given_back(made: Stage, monkeypatch: Any) -> None:
     surface = RippleSurface((3.0, 0.0, 0.0), (2.0, 2.0), cell=0.05)
     entity = esper.create_entity(surface)
     esper.create_entity(rain())
     made.play(2, **ONTO)
     ripples = renderer_of(made).ripples
     assert len(ripples.grids()) == 1 and made.weather.ripples(surface) is not None
+    # Out of view for long: the grid goes, and comes again when it is looked at.
     monkeypatch.setattr("weather_ecs.gpu.ripple_pass._KEPT_DRAWS", 30)
-    esper.delete_entity(entity)
-    made.play(1, **ONTO)
-    assert made.weather.ripples(surface) is None
+    away = {**ONTO, "heading": math.pi}
+    made.play(1, **away)
     assert len(ripples.grids()) == 1
     ripples._draws = 239  # so many later
-    made.play(1, **ONTO)
+    made.play(1, **away)
     assert not ripples.grids()
+    made.play(1, **ONTO)
+    assert len(ripples.grids()) == 1
+    # Deleted: at once.
+    esper.delete_entity(entity)
+    made.play(1, **ONTO)
+    assert not ripples.grids() and made.weather.ripples(surface) is None
+
+
+def test_many_lives_leave_nothing_behind(made: Stage, gl: GL) -> None:
+    esper.create_entity(rain())
+    counts = []
+    for number in range(30):
+        entity = esper.create_entity(RippleSurface((3.0, 0.0, 0.0), (2.0, 2.0 + number / 10)))
+        made.play(1, **ONTO)
+        counts.append(len(living(gl)["texture"]))
+        esper.delete_entity(entity)
+    assert max(counts) <= counts[0]
 
 
 def test_every_observer_has_rings_of_its_own(made: Stage) -> None:

@@ -73,6 +73,8 @@ class RipplePass:
         frame = view.frame
         if frame.ripples is not self._waters.surfaces:
             self._waters = _as_arrays(frame.ripples)
+            living = {surface.key for surface in frame.ripples}
+            self._drop([key for key in self._grids if key[1] not in living])
         waters = self._waters
         self._seen, self._sheltered = [], sheltered
         if waters.surfaces:
