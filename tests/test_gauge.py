@@ -1,0 +1,365 @@
+"""Rain gauges: a reading is the rain that lands, on every backend and without any."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.boxes import CORNERS, TRIANGLES, placed
+from tests.views import look_from, perspective
+from tests.worlds import fresh_world
+from weather_ecs import Weather
+from weather_ecs.components import Occluder, RainArea, RainGauge, Wind
+from weather_ecs.errors import InvalidValueError
+from weather_ecs.frame import GaugeData, GaugeReading
+from weather_ecs.gpu.context import probe
+from weather_ecs.gpu.gauge_pass import MAX_GAUGES, RING
+from weather_ecs.physics.container import births
+from weather_ecs.physics.drops import drop_density, sample_diameters
+from weather_ecs.physics.gauge import WIDEST, catch_radius, landing_water
+from weather_ecs.physics.lod import rim_fade, weight_shape
+from weather_ecs.physics.rain_step import diameters, fall_speeds, law_of
+from weather_ecs.systems.gauge import PARTS, GaugeBoard
+
+RATE = 25.0
+
+
+@pytest.fixture(autouse=True)
+def world():
+    with fresh_world() as name:
+        yield name
+
+
+@pytest.fixture(params=["compute", "feedback"])
+def backend(ctx: moderngl.Context, request: pytest.FixtureRequest) -> str:
+    name: str = request.param
+    if name == "compute" and not probe(ctx).compute:
+        pytest.skip("no compute shaders here")
+    return name
+
+
+@pytest.fixture
+def target(ctx: moderngl.Context) -> Iterator[None]:
+    """Something small to draw into."""
+    made = ctx.simple_framebuffer((32, 18))
+    made.use()
+    yield
+    for thing in (*made.color_attachments, made.depth_attachment, made):
+        thing.release()
+
+
+# The component
+
+
+def test_the_reading_is_the_weathers_to_set():
+    gauge = RainGauge((1, 2, 3), 0.5)
+    assert gauge.rate == 0.0
+    with pytest.raises(AttributeError):
+        gauge.rate = 5.0  # type: ignore[misc]
+    for area in (0, 0.0, -1.0, math.nan, math.inf):
+        with pytest.raises(InvalidValueError, match="area"):
+            RainGauge(area=area)
+        with pytest.raises(InvalidValueError, match="area"):
+            gauge.area = area
+    assert gauge.area == 0.5
+
+
+# The physics
+
+
+@pytest.mark.parametrize("rate", [0.5, 5.0, 25.0, 100.0])
+def test_the_water_that_a_landing_drop_carries(rate):
+    landed = sample_diameters(200_000, rate, np.random.default_rng(0), flux=True)
+    assert landing_water(rate) == pytest.approx((math.pi / 6.0 * landed**3).mean(), rel=0.03)
+
+
+def test_a_catch_is_wider_where_drops_are_few_and_never_smaller_than_the_opening():
+    rest = {"window": 30.0, "reach": (30.0, 30.0), "height": 20.0, "fall_speed": 6.0}
+    radii = [catch_radius(0.5, distance=d, count=14_000, **rest) for d in np.linspace(0, 0.9, 30)]
+    assert (np.diff(radii) >= 0.0).all()
+    assert 1.0 < radii[2] < 5.0 and radii[-1] == WIDEST * 30.0
+    assert catch_radius(0.5, distance=0.5, count=1, **rest) == WIDEST * 30.0
+    assert catch_radius(0.5, distance=0.5, count=1e9, **rest) == 0.5
+    assert catch_radius(50.0, distance=0.5, count=14_000, **rest) == 50.0
+
+
+@pytest.mark.parametrize("count", [3_000, 14_000, 50_000])
+def test_the_drawn_drops_carry_the_rain_at_every_distance(count):
+    """Reach and size are a drop's for good: no time would mend too many or too few large ones."""
+    record = births(50_000, np.random.default_rng(4))[:count]
+    s, law = record[:, 2].astype(float), law_of(RATE)
+    size = diameters(record[:, 3], law)
+    carried = size.astype(float) ** 3 * fall_speeds(size) * math.pi / 6.0 * 3600e-6
+    for d in np.array([2.0, 4.0, 8.0, 14.0, 20.0]) / 30.0:
+        inside = s > d
+        shares = d / weight_shape(d) * rim_fade(d / s[inside]) * 2.0 / (math.pi * s[inside] ** 2)
+        rate = (shares * carried[inside]).sum() * float(drop_density(RATE)) * math.pi / 2.0 / count
+        assert rate == pytest.approx(RATE, rel=6.0 / math.sqrt(count))
+
+
+# The board
+
+
+def rain(**rates: float) -> Any:
+    table = {int(name[1:]): rate for name, rate in rates.items() if name != "covered"}
+    covered = bool(rates.get("covered"))
+    return SimpleNamespace(rain_rates=lambda *_: table, sheltered=lambda *_: covered)
+
+
+DATA = (GaugeData(7, (0.0, 0.0, 0.0), 1.0, 30.0),)
+
+
+def reading(
+    time: float, *areas: tuple[int, float, float, float], exposure: float = 1.0
+) -> GaugeReading:
+    return GaugeReading(7, time, 0.1, exposure, areas)
+
+
+def board(seconds: float, sky: Any, *, step: float = 0.1, start: float = 0.0) -> Any:
+    gauge, made = RainGauge(), GaugeBoard()
+    for k in range(round(seconds / step) + 1):
+        made.process(DATA, {7: gauge}, sky, start + k * step)
+    return SimpleNamespace(gauge=gauge, board=made)
+
+
+def test_without_a_gpu_the_areas_rates_are_read():
+    assert board(10, rain(a1=5.0, a2=2.5)).gauge.rate == pytest.approx(7.5)
+    assert board(10, rain(a1=5.0, covered=1)).gauge.rate == 0.0
+    assert board(0, rain(a1=5.0)).gauge.rate == 0.0
+
+
+def test_the_reading_is_the_mean_over_its_window():
+    it = board(30, rain(a1=12.0))
+    for k in range(1, 151):
+        it.board.process(DATA, {7: it.gauge}, rain(), 30.0 + 0.1 * k)
+    assert it.gauge.rate == pytest.approx(6.0, rel=0.05)
+    for k in range(151, 320):
+        it.board.process(DATA, {7: it.gauge}, rain(), 30.0 + 0.1 * k)
+    assert it.gauge.rate == 0.0
+    assert all(len(parts) <= PARTS + 1 for parts in it.board._parts.values())
+
+
+def test_what_the_gpu_has_counted_counts():
+    it = board(10, rain(a1=5.0))
+    # (caught, watched, possible): 4 mm/h where half of the catch was open, all of the opening.
+    readings = [reading(0.1 * k, (1, 4.0 * 50.0, 50.0, 100.0)) for k in range(1, 101)]
+    it.board.take(DATA, readings)
+    it.board.process(DATA, {7: it.gauge}, rain(a1=5.0), 10.0)
+    assert it.gauge.rate == pytest.approx(4.0)
+    it.board.take(DATA, [reading(0.1 * k, (1, 0.0, 0.0, 100.0), exposure=0.0) for k in range(100)])
+    it.board.process(DATA, {7: it.gauge}, rain(a1=5.0), 10.0)
+    assert it.gauge.rate == pytest.approx(2.0, rel=0.02)
+
+
+def test_areas_whose_drops_say_nothing_are_read_as_they_are():
+    it = board(10, rain(a1=5.0, a2=3.0, a3=1.0))
+    for k in range(1, 101):
+        it.board.take(DATA, [reading(0.1 * k, (1, 60.0, 10.0, 10.0), (2, 9.0, 0.5, 10.0))])
+    it.board.process(DATA, {7: it.gauge}, rain(a1=5.0, a2=3.0, a3=1.0), 10.0)
+    assert it.gauge.rate == pytest.approx(6.0 + 3.0 + 1.0)
+
+
+def test_readings_of_gauges_that_are_gone_and_of_long_ago_are_left_out():
+    it = board(40, rain(a1=5.0))
+    it.board.take(DATA, [reading(1.0, (1, 900.0, 1.0, 1.0))])
+    it.board.take((), [reading(39.0, (1, 900.0, 1.0, 1.0))])
+    it.board.process(DATA, {7: it.gauge}, rain(a1=5.0), 40.0)
+    assert it.gauge.rate == pytest.approx(5.0)
+    it.board.process((), {}, rain(a1=5.0), 41.0)
+    assert not it.board._parts
+
+
+def test_time_that_runs_back_begins_anew():
+    it = board(20, rain(a1=8.0))
+    for k in range(20):
+        it.board.process(DATA, {7: it.gauge}, rain(a1=2.0), 0.1 * k)
+    assert it.gauge.rate == pytest.approx(2.0)
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.lists(st.floats(0.0, 100.0), max_size=40), st.floats(0.1, 3600.0))
+def test_any_times_keep_it_finite(steps, window):
+    data, gauge, made = (GaugeData(7, (0.0, 0.0, 0.0), 1.0, window),), RainGauge(), GaugeBoard()
+    time = 0.0
+    for step in steps:
+        time += step
+        made.take(data, [reading(time, (1, 5.0, 1.0, 1.0))])
+        made.process(data, {7: gauge}, rain(a1=5.0), time)
+        assert 0.0 <= gauge.rate <= 5.0 + 1e-9
+
+
+# Without OpenGL
+
+
+def test_a_server_reads_its_gauges():
+    Weather()
+    area = RainArea((0, 0), (60, 40), RATE)
+    esper.create_entity(area)
+    open_air, under, beside = (RainGauge((x, 1.0, 0), window=10.0) for x in (0.0, 20.0, 24.0))
+    for gauge in (open_air, under, beside):
+        esper.create_entity(gauge)
+    esper.create_entity(Occluder(CORNERS, TRIANGLES, placed((20, 4, 0), (3, 0.1, 3))))
+    for _ in range(100):
+        esper.process(0.1)
+    assert open_air.rate == pytest.approx(RATE)
+    assert under.rate == 0.0
+    assert beside.rate == pytest.approx(RATE)
+    under.position = (0.0, 2.0, 5.0)
+    for _ in range(3):
+        esper.process(0.1)
+    assert under.rate == pytest.approx(RATE)
+    area.rain_rate = 0.0
+    for _ in range(150):
+        esper.process(0.1)
+    assert open_air.rate == 0.0
+
+
+def test_gauges_may_come_and_go_and_show_in_no_snapshot():
+    weather = Weather()
+    esper.create_entity(RainArea((0, 0), (60, 40), RATE))
+    esper.process(0.1)
+    before = weather.snapshot()
+    for k in range(300):
+        entity = esper.create_entity(RainGauge((k % 7, 0, 0)))
+        if k % 3:
+            esper.delete_entity(entity, immediate=bool(k % 2))
+        esper.process(0.0)
+    assert weather.snapshot() == before
+    for entity, _ in list(esper.get_component(RainGauge)):
+        esper.delete_entity(entity, immediate=True)
+    esper.process(0.1)
+    weather._frame()
+    gone = esper.create_entity(RainGauge())
+    esper.delete_entity(gone)
+    esper.process(0.1)
+    assert weather._frame().gauges == ()
+
+
+# On the GPU
+
+
+def watch(weather: Weather, seconds: float, step: float = 0.1, heading: float = 0.0) -> None:
+    for _ in range(round(seconds / step)):
+        esper.process(step)
+        weather.draw(look_from((0, 1.7, 0), heading), perspective())
+
+
+def own_water(weather: Weather) -> list[float]:
+    """Drops' own water over what was counted, for every gauge, in the last frames together."""
+    sums = np.zeros((MAX_GAUGES, 4))
+    for slot in weather._renderer._gauges._ring:
+        raw = np.frombuffer(slot.texture.read(), np.float32).reshape(-1, MAX_GAUGES, 4)
+        sums += raw.sum(axis=0)
+    return (sums[:, 3] / np.maximum(sums[:, 0], 1e-9)).tolist()
+
+
+# (distance, height) of gauges before the observer; the last lies a little lower.
+PLACES = ((2.0, 0.0, 0.5), (8.0, 0.0, 0.5), (14.0, -8.0, 1.0), (20.0, 0.0, 0.5), (6.0, 5.0, -1.0))
+
+
+@pytest.mark.usefixtures("target")
+@pytest.mark.parametrize("speed", [0.0, 8.0])
+def test_in_the_open_a_gauge_reads_the_areas_rain_rate(
+    ctx: moderngl.Context, backend: str, speed: float
+) -> None:
+    with Weather(context=ctx, backend=backend, quality="medium", seed=2) as weather:
+        esper.create_entity(RainArea((0, 0), (200, 200), RATE))
+        esper.create_entity(Wind((0.6, 0.8), speed))
+        gauges = [RainGauge((x, y, z)) for x, z, y in PLACES]
+        for gauge in gauges:
+            esper.create_entity(gauge)
+        ratios = []
+        for _ in range(10):
+            watch(weather, 3.0)
+            ratios.append(own_water(weather))
+        got = [gauge.rate for gauge in gauges]
+        assert got == pytest.approx([RATE] * len(gauges), rel=0.05)
+        assert got != [RATE] * len(gauges)  # counted, and not looked up
+        # The same drops by their own water: a few large ones decide, so less exactly.
+        assert np.mean(np.array(ratios)[:, : len(gauges)]) == pytest.approx(1.0, abs=0.12)
+
+
+@pytest.mark.usefixtures("target")
+def test_nothing_lands_under_a_roof_and_all_of_it_beside(
+    ctx: moderngl.Context, backend: str
+) -> None:
+    with Weather(context=ctx, backend=backend, quality="medium") as weather:
+        esper.create_entity(RainArea((0, 0), (200, 200), RATE))
+        ground = placed((0, -1, 0), (100, 1, 100))
+        esper.create_entity(Occluder(CORNERS, TRIANGLES, ground))
+        esper.create_entity(Occluder(CORNERS, TRIANGLES, placed((8, 4, 0), (2, 0.1, 2))))
+        under, beside, edge = (RainGauge((8, 0.3, z), window=20.0) for z in (0.0, 3.2, 2.0))
+        on_ground = RainGauge((12.0, 0.0, -3.0), window=20.0)
+        for gauge in (under, beside, edge, on_ground):
+            esper.create_entity(gauge)
+        watch(weather, 21.0)
+        assert under.rate == 0.0
+        assert beside.rate == pytest.approx(RATE, rel=0.06)
+        assert on_ground.rate == pytest.approx(RATE, rel=0.06)
+        assert 0.3 * RATE < edge.rate < 0.7 * RATE
+
+
+@pytest.mark.usefixtures("target")
+def test_the_edge_of_an_area_and_two_areas_together(ctx: moderngl.Context, backend: str) -> None:
+    with Weather(context=ctx, backend=backend, quality="medium") as weather:
+        esper.create_entity(RainArea((0, 0), (30, 30), RATE, soft_edge=25.0))
+        esper.create_entity(RainArea((5, 0), (90, 90), 10.0))
+        at = (15.0, 1.0, 3.0)
+        gauge, dry = RainGauge(at, window=20.0), RainGauge((500.0, 0.0, 0.0), window=20.0)
+        esper.create_entity(gauge)
+        esper.create_entity(dry)
+        watch(weather, 21.0)
+        assert gauge.rate == pytest.approx(weather.sample(at).rain_rate, rel=0.07)
+        assert dry.rate == 0.0
+
+
+@pytest.mark.usefixtures("target")
+def test_counts_come_back_some_frames_late_and_only_while_time_passes(
+    ctx: moderngl.Context,
+) -> None:
+    with Weather(context=ctx, quality="low") as weather:
+        esper.create_entity(RainArea((0, 0), (60, 60), RATE))
+        watch(weather, 0.5)
+        passes = weather._renderer._gauges
+        assert not passes._ring  # nothing is made before the first gauge
+        gauge = RainGauge((4, 0, 0))
+        esper.create_entity(gauge)
+        taken = []
+        inner = weather._renderer.take_readings
+        weather._renderer.take_readings = lambda: taken.append(inner()) or taken[-1]
+        watch(weather, 1.0)
+        assert [len(readings) for readings in taken] == [0] * RING + [1] * (10 - RING)
+        assert taken[-1][0].time == pytest.approx(weather.stats.time - 0.1 * RING)
+        weather.paused = True
+        watch(weather, 0.1)  # what the last draw has brought is entered
+        before = gauge.rate
+        watch(weather, 1.0)
+        assert taken[-10:] == [[]] * 10
+        assert gauge.rate == before
+
+
+@pytest.mark.usefixtures("target")
+def test_more_gauges_than_are_counted_read_the_areas(ctx: moderngl.Context) -> None:
+    with Weather(context=ctx, quality="low") as weather:
+        esper.create_entity(RainArea((0, 0), (60, 60), RATE))
+        gauges = [RainGauge((4, 0, k / 10), window=5.0) for k in range(MAX_GAUGES + 5)]
+        for gauge in gauges:
+            esper.create_entity(gauge)
+        watch(weather, 6.0)
+        assert [gauge.rate for gauge in gauges[MAX_GAUGES:]] == pytest.approx([RATE] * 5)
+        assert np.mean([gauge.rate for gauge in gauges]) == pytest.approx(RATE, rel=0.2)
+        behind = RainGauge((-20, 0, 0), window=5.0)  # no drops are drawn there
+        for gauge in gauges:
+            gauge.position = (-10.0, 0.0, 0.0)
+        esper.create_entity(behind)
+        watch(weather, 6.0)
+        assert behind.rate == pytest.approx(RATE)
