@@ -16,7 +16,7 @@ from weather_ecs.gpu.streak_list import CULL, StreakList
 
 GROUP = 128  # drops in a work group; also in rain_step.comp
 SHELTER_UNIT = 1
-SMALLEST_LIST = 4096  # impacts
+SMALLEST_LIST, LARGEST_LIST = 4096, 16_384  # impacts; every reader goes over the whole list
 # A set that no view has used for so many draws is given back.
 _KEPT_DRAWS = 600
 # The last tenth of the drops in use fades in; also in systems/rain_view.py.
@@ -120,11 +120,11 @@ class RainPass:
         return moved
 
     def _make_room(self, seen: _Observed, view: ViewData) -> None:
-        """A list of impacts that holds those of half a second, whatever the number of drops."""
+        """A list of impacts that grows with the drops; of very many, it holds the newest."""
         wanted = self._capacity
         if wanted is None:
             drops = max((len(container.births) for container in view.containers), default=0)
-            wanted = max(SMALLEST_LIST, drops // 4)
+            wanted = min(max(SMALLEST_LIST, drops // 4), LARGEST_LIST)
         if seen.impacts is None or seen.impacts.capacity < wanted:
             if seen.impacts is not None:
                 seen.impacts.release()
