@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 
 from tests.boxes import box, placed
+from tests.gl_host import Host, read_state
 from tests.rain_frames import area, camera, frame, quality
 from tests.views import look_from, perspective
 from tests.worlds import fresh_world
 from weather_ecs import Weather, glsl
-from weather_ecs.components import Observer, Occluder, RainArea, Wind
+from weather_ecs.components import Observer, Occluder, RainArea, RainGauge, Wind
 from weather_ecs.errors import ContextError
 from weather_ecs.frame import FrameData, OccluderData, ViewData, WetnessData
 from weather_ecs.gpu.blocks import BlockBuffer
@@ -501,3 +502,36 @@ def test_a_host_that_has_the_map_bound_may_close_the_weather(
 def test_a_server_has_no_map() -> None:
     with Weather() as weather, pytest.raises(ContextError):
         weather.wetness()
+
+
+@pytest.mark.usefixtures("world")
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_host_in_any_state_gets_the_same_map_and_its_state_back(
+    ctx: moderngl.Context, gl: GL, keep: Callable[[Any], Any], seed: int
+) -> None:
+    found, outer = [], StateGuard(ctx, gl)
+    host = Host(ctx, gl, keep, seed)
+    for scrambled in (False, True):
+        esper.clear_database()
+        with outer, Weather(context=ctx, quality="low", seed=seed) as weather:
+            esper.create_entity(RainArea((0, 0), (70, 70), 25.0))
+            esper.create_entity(ground())
+            gauge = RainGauge((5, 0.5, 0), window=5.0)
+            esper.create_entity(gauge)
+            host.framebuffers[0].use()
+            for k in range(12):
+                esper.process(0.25)
+                if scrambled:
+                    host.scramble()
+                    before = read_state(gl)
+                weather.draw(look_from((0.8 * k, 1.7, 0), 0.0), perspective())
+                if scrambled:
+                    assert read_state(gl) == before
+            outer.reset()
+            gl.glDisable(0x8DB9)  # sRGB, which the guard leaves to the host
+            seen = weather._renderer._wetness._observed[0]
+            found.append((seen.textures[seen.current].read(), gauge.rate))
+    outer.release()
+    while gl.error() == 0x0506:  # the host has had the window's framebuffer bound; there is none
+        pass
+    assert found[0] == found[1]
