@@ -535,3 +535,28 @@ def test_a_host_in_any_state_gets_the_same_map_and_its_state_back(
     while gl.error() == 0x0506:  # the host has had the window's framebuffer bound; there is none
         pass
     assert found[0] == found[1]
+
+
+@pytest.mark.usefixtures("world")
+def test_drawing_gauges_and_maps_leave_no_trace_in_a_snapshot(ctx: moderngl.Context) -> None:
+    def run(draws: bool) -> bytes:
+        target = ctx.simple_framebuffer((32, 18)) if draws else None
+        if target is not None:
+            target.use()
+        with fresh_world(), Weather(context=ctx if draws else None, seed=3) as weather:
+            esper.create_entity(RainArea((0, 0), (70, 40), 25.0, velocity=(3, 0)))
+            esper.create_entity(RainArea((90, 0), (40, 40), 5.0, drift=0.5))
+            esper.create_entity(Wind((0, 1), 6.0))
+            esper.create_entity(ground())
+            esper.create_entity(RainGauge((4, 0, 0)))
+            for _ in range(30):
+                esper.process(0.37)
+                if draws:
+                    weather.draw(look_from((0, 1.7, 0), 0.0), perspective())
+            data = weather.snapshot()
+        if target is not None:
+            for thing in (*target.color_attachments, target.depth_attachment, target):
+                thing.release()  # type: ignore[union-attr]
+        return data
+
+    assert run(True) == run(False)

@@ -117,6 +117,9 @@ class Renderer:
 
     def wetness(self, key: int = 0) -> WetnessMap:
         """The water around an observer, for a game's own shaders."""
+        known = self._wetness.known(key)
+        if known is not None:
+            return known
         with self._guard:
             return self._wetness.map(key)
 

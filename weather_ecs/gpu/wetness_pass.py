@@ -1,6 +1,6 @@
 """The wetness map: the water on what rain meets first, around every observer.
 
-Bands of rows are brought up to date in turn, all of them within a second; all at once where the
+Bands of rows are brought up to date in turn, all of them within 1.2 s; all at once where the
 map moves with its observer, the wind turns or the map begins. The law has a closed form, so that
 bands may wait.
 """
@@ -26,7 +26,7 @@ from weather_ecs.gpu.wetness_map import WetnessMap
 from weather_ecs.physics.wet_map import BANDS, RINGS, MapPlace, place_over
 
 MAX_AREAS = 16
-ROUND = 1.0  # s in which every band has its turn
+ROUND = 1.2  # s in which every band has its turn
 LONGEST = 5.0  # s without an update, after which the map begins anew
 DRY_AFTER = 1800.0  # s without rain after which nothing is left to dry
 STATIC_UNIT, BEFORE_UNIT, FAR_UNIT = 2, 3, 4
@@ -80,6 +80,11 @@ class WetnessPass:
     def map(self, observer: int) -> WetnessMap:
         """What a game's shaders read for an observer."""
         return self._seen(observer).map
+
+    def known(self, observer: int) -> WetnessMap | None:
+        """The same, if it is there already."""
+        seen = self._observed.get(observer)
+        return seen.map if seen is not None else None
 
     def needs_map(self, view: ViewData) -> bool:
         """Whether there is water on the ground around an observer, or some to come."""
