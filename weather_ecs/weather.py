@@ -232,7 +232,6 @@ class Weather:
             self._gauges.take(frame.gauges, renderer.take_readings())
         self._observer = camera.position
         self._stats.count(renderer.stats)
-        self._refresh_stats()
         self._stats.ms = (perf_counter() - started) * 1000.0
         gpu_ms = float(renderer.stats.get("gpu_ms", 0.0))
         self._cost.add(gpu_ms, self._stats.ms, self._stats.drops_drawn)

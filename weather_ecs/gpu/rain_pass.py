@@ -8,6 +8,7 @@ import moderngl
 
 from weather_ecs.frame import ContainerData, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.compute_order import ComputeOrder
 from weather_ecs.gpu.drop_set import DropSet
 from weather_ecs.gpu.impact_list import ImpactList
 from weather_ecs.gpu.rain_blocks import RAIN_DRAW, RAIN_STEP
@@ -58,6 +59,7 @@ class RainPass:
         self._steps = [shaders.program(key), shaders.program(replace(key, defines=("SHELTER",)))]
         self._steps[1]["shelter_map"] = SHELTER_UNIT
         self._draw_program = shaders.program(DRAW)
+        self._order = ComputeOrder(ctx)
         self._cull = shaders.program(CULL) if self._lists else None
         self._programs = {} if self._lists else {"streak": self._draw_program}
         if backend == "feedback":
@@ -160,7 +162,7 @@ class RainPass:
                 impacts.bind()
             kernel = self._steps[sheltered]
             kernel.run((count + GROUP - 1) // GROUP)  # type: ignore[attr-defined]
-            self._ctx.memory_barrier(
+            self._order.after(
                 moderngl.VERTEX_ATTRIB_ARRAY_BARRIER_BIT | moderngl.SHADER_STORAGE_BARRIER_BIT
             )
         else:
@@ -185,7 +187,7 @@ class RainPass:
                 continue
             if drops.streaks is None:
                 drops.streaks = StreakList(self._ctx, drops, self._draw_program)
-            drops.streaks.draw(self._cull, count)
+            drops.streaks.draw(self._cull, count, self._order)
 
     def fill_container(self, container: ContainerData, view: ViewData) -> None:
         """Upload the block RainDraw of one container."""

@@ -6,6 +6,7 @@ from typing import Any
 
 import moderngl
 
+from weather_ecs.gpu.compute_order import ComputeOrder
 from weather_ecs.gpu.drop_set import DropSet
 from weather_ecs.gpu.shader_loader import ProgramKey
 
@@ -18,7 +19,6 @@ class StreakList:
     """Four bytes a drop, and a draw command a chunk; the order is that of the drops."""
 
     def __init__(self, ctx: moderngl.Context, drops: DropSet, draw: moderngl.Program) -> None:
-        self._ctx = ctx
         self.drops = drops
         self._ids = ctx.buffer(reserve=4 * drops.capacity)
         chunks = -(-drops.capacity // CHUNK)
@@ -30,7 +30,7 @@ class StreakList:
         """Bytes on the GPU."""
         return int(self._ids.size + self._commands.size)
 
-    def draw(self, cull: Any, count: int) -> None:
+    def draw(self, cull: Any, count: int, order: ComputeOrder) -> None:
         """List those of the first `count` drops that are in view, by the program CULL, and draw."""
         chunks = -(-count // CHUNK)
         cull["streak_count"] = count
@@ -38,7 +38,7 @@ class StreakList:
         self._ids.bind_to_storage_buffer(2)
         self._commands.bind_to_storage_buffer(3)
         cull.run(chunks)
-        self._ctx.memory_barrier(moderngl.ELEMENT_ARRAY_BARRIER_BIT | moderngl.COMMAND_BARRIER_BIT)
+        order.after(moderngl.ELEMENT_ARRAY_BARRIER_BIT | moderngl.COMMAND_BARRIER_BIT)
         self._array.render_indirect(self._commands, moderngl.POINTS, count=chunks)
 
     def release(self) -> None:

@@ -156,7 +156,7 @@ class RainView:
     ) -> list[ContainerData]:
         rate = float(row["rain_rate"])
         forward, lateral = container.reach
-        load = float(drop_density(rate)) * container.height * math.pi * forward * lateral
+        load = _drop_density(rate) * container.height * math.pi * forward * lateral
         load /= 2.0 * count * (1.0 - 0.5 * COUNT_FADE)
         h = float(row["heading"])
         radii = row["radii"].tolist()
@@ -213,7 +213,7 @@ class RainView:
                     axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
                     shape=(a, b, min((1.0 - soft / b) ** 2, 0.9999)),
                     span=(min(container.bottom, seen.position[1]) - 300.0, ceiling),
-                    extinction=float(extinction(rate)) * frame.look.veil,
+                    extinction=_extinction(rate) * frame.look.veil,
                     shown=shown,
                 )
             )
@@ -230,6 +230,16 @@ def _velocity(
     blend = 1.0 - math.exp(-dt / 0.05)
     x, y, z = (v + (n - v) * blend for v, n in zip(seen.velocity, now, strict=True))
     return (x, y, z)
+
+
+@lru_cache(maxsize=256)
+def _drop_density(rain_rate: float) -> float:
+    return float(drop_density(rain_rate))
+
+
+@lru_cache(maxsize=256)
+def _extinction(rain_rate: float) -> float:
+    return float(extinction(rain_rate))
 
 
 @lru_cache(maxsize=256)
