@@ -17,6 +17,8 @@ from weather_ecs import Weather
 from weather_ecs.components import Occluder, RainArea
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.frame import AREA_DTYPE
+from weather_ecs.physics.ellipse import edge_factor
+from weather_ecs.physics.rain_field import area_shares
 from weather_ecs.physics.wet_field import open_water
 from weather_ecs.physics.wetness import (
     DRAINING,
@@ -25,6 +27,7 @@ from weather_ecs.physics.wetness import (
     STEEP_FILM,
     film_capacity,
     merge,
+    merge_one,
     settle,
     settle_one,
 )
@@ -89,7 +92,8 @@ def test_fields_of_different_areas_fill_one_film(a, b):
     both = float(merge(a, b))
     assert max(a, b) - 1e-12 <= both <= a + b
     assert float(merge(b, a)) == pytest.approx(both)
-    assert float(merge(a, 0.0)) == a
+    assert float(merge(a, 0.0)) == pytest.approx(a)
+    assert merge_one(a, b) == both
 
 
 # The ground
@@ -116,7 +120,7 @@ def test_a_minute_of_heavy_rain():
     assert weather.sample((0, 0, 0)).wetness == pytest.approx(expected / math.e, rel=0.02)
     rain(3600.0, 10.0)
     assert weather.sample((0, 0, 0)).wetness == 0.0
-    assert not weather._state.wet_ground.tiles
+    assert not weather._state.wet_ground.levels
 
 
 def test_wetness_of_a_point_follows_the_law_through_changing_rain():
@@ -204,7 +208,7 @@ def test_any_size_of_area_takes_a_bounded_number_of_tiles(radii):
     weather = Weather()
     esper.create_entity(RainArea((123.0, -77.0), radii, 25.0, heading=0.7, velocity=(1, 0)))
     rain(20)
-    tiles = sum(map(len, weather._state.wet_ground.tiles.values()))
+    tiles = sum(len(level.tiles) for level in weather._state.wet_ground.levels.values())
     assert tiles < 300
     if min(radii) >= 0.4 and max(radii) < 100 * min(radii):
         assert weather.sample((123.0 + 20.0 - 0.1, 0, -77.0)).wetness > 0.0
@@ -221,12 +225,25 @@ def test_crowded_ground_forgets_the_driest():
     assert tiles.at(0.0, 0.0) == 0.0
 
 
+@settings(deadline=None, max_examples=100)
+@given(
+    st.floats(-60, 60), st.floats(-60, 60), st.floats(0.1, 50), st.floats(0.1, 50),
+    st.floats(-4, 4), st.one_of(st.just(0.0), st.floats(1e-3, 100)),
+)  # fmt: skip
+def test_shares_are_the_ellipses_edge_factor(x, z, p, q, heading, edge):
+    radii = (max(p, q), min(p, q))
+    points = np.random.default_rng(0).uniform(-80, 80, (50, 2))
+    got = area_shares(points[:, 0], points[:, 1], (x, z), radii, heading, edge)
+    expected = edge_factor(points, (x, z), radii, heading, edge)
+    np.testing.assert_allclose(got, expected, atol=1e-9)
+
+
 @given(st.floats(1e-3, 1e6), st.floats(1e-3, 1e6))
 def test_cells_are_as_fine_as_the_area_needs(p, q):
     a, b = max(p, q), min(p, q)
     cell = 2.0 ** level_of(a, b)
-    assert math.pi * a * b / cell**2 <= 1024.0001
-    assert a / cell <= 128.0001
+    assert math.pi * a * b / cell**2 <= 800.0001
+    assert a / cell <= 181.02
     assert level_of(2 * a, 2 * b) >= level_of(a, b)
 
 
@@ -241,9 +258,8 @@ def test_what_the_gpu_begins_with_is_what_samples_say():
     frame = weather._frame()
     wet = frame.wetness
     points = np.random.default_rng(0).uniform(-250, 350, (500, 2))
-    levels = tuple((tiles.cell, tiles.places, tiles.water) for tiles in wet.levels)
-    rest = frame.time - wet.ticks
-    got = open_water(points, levels, wet.waited, wet.rows, rest, frame.areas)
+    levels = [(t.cell, t.places, t.water, wet.ticks - t.since, t.rows) for t in wet.levels]
+    got = open_water(points, levels, frame.time - wet.ticks, frame.areas)
     expected = [weather.sample((x, 0, z)).wetness for x, z in points.tolist()]
     np.testing.assert_allclose(got, expected, atol=1e-6)
     assert max(expected) > 0.1
@@ -319,27 +335,47 @@ def test_a_state_comes_back():
     assert ground.steps in range(STEPS)
 
 
+AREA = [0, [0, 0], [1, 1], 0, 5.0, 1, 400]
+LEVEL = {"level": 0, "places": [[0, 0]], "codes": "00" * 128, "rows": [AREA], "since": 0}
+
+
+def test_the_level_that_the_bad_ones_are_made_of_is_good():
+    WetGround.from_state({**GOOD, "levels": [LEVEL]})
+    WetGround.from_state({**GOOD, "levels": [{**LEVEL, "places": [], "codes": ""}]})
+
+
 BAD = [
     ("steps", STEPS),
     ("steps", -1),
     ("ticks", 1.5),
-    ("since", 10**9),
-    ("rows", None),
-    ("rows", [[0, [0, 0], [1, 1], 0, 5, 1]]),
-    ("rows", [[0, [0, 0], [1, 1], 0, 0.0, 1, 400]]),
-    ("rows", [[0, [0, 0], [1, 2], 0, 5.0, 1, 400]]),
-    ("rows", [[1, [0, 0], [1, 1], 0, 5.0, 1, 400], [1, [0, 0], [1, 1], 0, 5.0, 1, 400]]),
-    ("tiles", {}),
-    ("tiles", [1]),
-    ("tiles", [{"level": 0, "places": [], "codes": ""}]),
-    ("tiles", [{"level": 99, "places": [[0, 0]], "codes": "00" * 128}]),
-    ("tiles", [{"level": 0, "places": [[0, 0]], "codes": "00" * 127}]),
-    ("tiles", [{"level": 0, "places": [[0, 0]], "codes": "zz" * 128}]),
-    ("tiles", [{"level": 0, "places": [[0, 0]], "codes": "ff" * 128}]),
-    ("tiles", [{"level": 0, "places": [[0, 2**40]], "codes": "00" * 128}]),
-    ("tiles", [{"level": 0, "places": [[1, 0], [0, 0]], "codes": "00" * 256}]),
-    ("tiles", [{"level": 0, "places": [[0, 0]], "codes": "00" * 128}] * 2),
-    ("tiles", [{"level": 0, "places": [[0, 0]]}]),
+    ("levels", {}),
+    ("levels", [1]),
+    ("levels", [LEVEL] * 2),
+    ("levels", [{k: v for k, v in LEVEL.items() if k != "codes"}]),
+    *[
+        ("levels", [{**LEVEL, name: value}])
+        for name, value in (
+            ("since", 10**9),
+            ("rows", None),
+            ("rows", [AREA[:6]]),
+            ("rows", [[0, [0, 0], [1, 1], 0, 0.0, 1, 400]]),
+            ("rows", [[0, [0, 0], [1, 2], 0, 5.0, 1, 400]]),
+            ("rows", [[0.5, [0, 0], [1, 1], 0, 5.0, 1, 400]]),
+            ("rows", [AREA, AREA]),
+            ("level", 99),
+            ("level", 0.0),
+            ("codes", "00" * 127),
+            ("codes", "zz" * 128),
+            ("codes", "ff" * 128),
+            ("codes", 5),
+            ("places", [[0, 2**40]]),
+            ("places", [[0, 0], [0, 0]]),
+            ("places", [[0]]),
+            ("places", 7),
+        )
+    ],
+    ("levels", [{**LEVEL, "rows": [], "places": [], "codes": ""}]),
+    ("levels", [{**LEVEL, "places": [[1, 0], [0, 0]], "codes": "00" * 256}]),
 ]
 
 

@@ -148,7 +148,7 @@ def maps(ctx: moderngl.Context) -> Iterator[Maps]:
 
 def dry_ground(time: float, number: int = 1) -> WetnessData:
     """Ground that has been dry up to a time."""
-    return WetnessData(number, int(time), (), 0.0, frame(area()).areas[:0])
+    return WetnessData(number, int(time), ())
 
 
 def scene(time: float, *occluders: OccluderData, **rest: Any) -> FrameData:

@@ -139,6 +139,8 @@ class WetTileData:
     cell: float  # m
     places: NDArray  # (n, 2) int64: tile (i, j) begins at (8 i, 8 j) cells, along x and z
     water: NDArray  # (n, 8, 8) float32, mm; rows along z
+    since: int  # the tick it is of
+    rows: NDArray  # AREA_DTYPE, the areas whose rain has been falling since then
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -148,8 +150,6 @@ class WetnessData:
     number: int  # another one where the ground is another, as when a snapshot was restored
     ticks: int  # seconds of weather done
     levels: tuple[WetTileData, ...]
-    waited: float  # s up to the tick for which `rows` have not been entered into the tiles
-    rows: NDArray  # AREA_DTYPE
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,9 +47,12 @@ class FarField:
         across = (np.arange(TEXELS) + 0.5) * TEXEL - HALF
         grid = np.meshgrid(self.middle[0] + across, self.middle[1] + across)
         points = np.stack(grid, axis=-1).reshape(-1, 2)
-        levels = tuple([(tiles.cell, tiles.places, tiles.water) for tiles in wet.levels])
+        levels = [
+            (tiles.cell, tiles.places, tiles.water, float(wet.ticks - tiles.since), tiles.rows)
+            for tiles in wet.levels
+        ]
         rest = max(view.frame.time - wet.ticks, 0.0)
-        water = open_water(points, levels, wet.waited, wet.rows, rest, view.frame.areas)
+        water = open_water(points, levels, rest, view.frame.areas)
         self.texture.write(water.astype(np.float32).tobytes())
         self._made = (wet.number, wet.ticks)
         self.dry = not water.any()

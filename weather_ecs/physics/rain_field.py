@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 
@@ -63,6 +64,28 @@ class RainField:
             if math.hypot((dx * cos - dz * sin) / a, (dx * sin + dz * cos) / b) < 1.0:
                 return True
         return False
+
+
+def area_shares(
+    x: NDArray,
+    z: NDArray,
+    center: tuple[float, float],
+    radii: tuple[float, float],
+    heading: float,
+    edge: float,
+) -> NDArray[np.float64]:
+    """Share of an area's rain at many places, x and z broadcast; nothing is checked."""
+    c, s, (a, b) = math.cos(heading), math.sin(heading), radii
+    dx, dz = x - center[0], z - center[1]
+    u, w = (dx * c - dz * s) / a, (dx * s + dz * c) / b
+    rho = np.hypot(u, w)
+    if edge <= 0.0:
+        return np.where(rho < 1.0, 1.0, 0.0)
+    slope = np.hypot(u / a, w / b)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        span = np.where(slope > 0.0, rho / slope, b)
+        share = np.clip((1.0 - rho) * span / min(edge, b), 0.0, 1.0)
+    return share * share * (3.0 - 2.0 * share)
 
 
 def plain_rows(rows: NDArray) -> list[tuple[Any, ...]]:

@@ -5,41 +5,41 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from weather_ecs.physics.ellipse import edge_factor
-from weather_ecs.physics.rain_field import plain_rows
+from weather_ecs.physics.rain_field import area_shares, plain_rows
 from weather_ecs.physics.wetness import FILM, MM_PER_S, merge, settle
 
 _BITS = 32
 
 
+Level = tuple[float, NDArray, NDArray, float, NDArray]
+
+
 def open_water(
-    points: NDArray,
-    levels: tuple[tuple[float, NDArray, NDArray], ...],
-    waited: float,
-    before: NDArray,
-    rest: float,
-    now: NDArray,
+    points: NDArray, levels: list[Level], rest: float, areas: NDArray
 ) -> NDArray[np.float64]:
     """mm at points (n, 2) (x, z); the same as `systems.wet_ground.WetGround.at`, but for ceilings.
 
-    levels: of every size of cells its side in m, tiles (t, 2) and water (t, 8, 8) in mm. Since then
-    the areas' rain `before` (AREA_DTYPE) has fallen for `waited` s, and that of `now` for `rest` s.
+    levels: of every size of cells its side in m, tiles (t, 2), water (t, 8, 8) in mm, and areas
+    (AREA_DTYPE) that have rained for some s since. After all that, `areas` have for `rest` s.
     """
     water = np.zeros(len(points))
-    for cell, places, tiles in levels:
-        water = merge(water, _between(points, cell, places, tiles))
-    for rows, seconds in ((before, waited), (now, rest)):
-        if seconds > 0.0 and (len(rows) or water.any()):
-            water = settle(water, _rain(points, rows) * MM_PER_S, FILM, seconds)
-    return water
+    for cell, places, tiles, waited, rows in levels:
+        here = _between(points, cell, places, tiles)
+        water = merge(water, _later(points, here, rows, waited))
+    return _later(points, water, areas, rest)
+
+
+def _later(points: NDArray, water: NDArray, areas: NDArray, seconds: float) -> NDArray:
+    if seconds <= 0.0 or not (len(areas) or water.any()):
+        return water
+    return settle(water, _rain(points, areas) * MM_PER_S, FILM, seconds)
 
 
 def _rain(points: NDArray, areas: NDArray) -> NDArray[np.float64]:
     rate = np.zeros(len(points))
     for _, center, radii, heading, full, edge, _ in plain_rows(areas):
         if full > 0.0:
-            with np.errstate(over="ignore"):
-                rate += full * edge_factor(points, center, radii, heading, edge)
+            rate += full * area_shares(points[:, 0], points[:, 1], center, radii, heading, edge)
     return rate
 
 

@@ -76,8 +76,12 @@ def settle_one(w: float, s: float, c: float, seconds: float) -> float:
 def merge(one: ArrayLike, other: ArrayLike) -> NDArray[np.float64]:
     """W on level ground where two fields speak of different areas' rain over the same place.
 
-    Shares of the film fill what the other has left dry; what runs off adds up.
+    Films add up until the ground is full, as the law is linear up to there; so does what runs off.
     """
     a, b = np.asarray(one, np.float64), np.asarray(other, np.float64)
-    film_a, film_b = np.minimum(a, FILM), np.minimum(b, FILM)
-    return a + b - film_a * film_b / FILM
+    return np.minimum(a + b, FILM) + np.maximum(a - FILM, 0.0) + np.maximum(b - FILM, 0.0)
+
+
+def merge_one(a: float, b: float) -> float:
+    """`merge` for one place, in plain numbers."""
+    return min(a + b, FILM) + max(a - FILM, 0.0) + max(b - FILM, 0.0)

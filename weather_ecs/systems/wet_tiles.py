@@ -9,25 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.errors import InvalidValueError
-from weather_ecs.frame import WetTileData
-from weather_ecs.physics.ellipse import edge_factor
-from weather_ecs.physics.rain_field import plain_rows
-from weather_ecs.physics.wetness import FILM, MM_PER_S, settle
+from weather_ecs.physics.rain_field import area_shares, plain_rows
+from weather_ecs.physics.wetness import DRYING, FILM, MM_PER_S, settle
 
 SIDE = 8  # cells on a side of a tile
 FINEST, COARSEST = -2, 40  # levels; a cell is 2**level m wide
 MOST = 16.0  # mm, more is not kept apart
 MOST_TILES = 1024
 _CODES = 2**14 - 1  # water is kept as the square root of its share of MOST, in so many steps
-_TRACE = 2e-3  # mm, less is dry
-_CELLS = 1024  # of an area, about
+_TRACE = 1e-2  # mm, less is dry
+_CELLS = 400  # of an area, about
 _FAR = 2**31
 
 
 def level_of(a: float, b: float) -> int:
-    """Level of the cells that an area of these radii wets: some hundred to a thousand of them."""
+    """Level of the cells that an area of these radii wets: some hundreds of them."""
     cell = max(math.sqrt(math.pi * a * b / _CELLS), a / 128.0)
-    return min(max(math.ceil(math.log2(cell)), FINEST), COARSEST)
+    return min(max(round(math.log2(cell)), FINEST), COARSEST)
 
 
 class WetTiles:
@@ -73,9 +71,16 @@ class WetTiles:
         """Let what was added fall for so long, and the rest run off and dry."""
         count = len(self._places)
         inflow = self._inflow[:count]
-        codes = _encode(settle(_decode(self._codes[:count]), inflow, FILM, seconds))
+        rained = inflow.any(axis=(1, 2))
+        water = _decode(self._codes[:count])
+        wet = rained | (water > FILM).any(axis=(1, 2))
+        water *= math.exp(-seconds / DRYING)  # what there is to most of them
+        if wet.any():
+            before = _decode(self._codes[:count][wet])
+            water[wet] = settle(before, inflow[wet], FILM, seconds)
+        codes = _encode(water)
         wettest = codes.max(axis=(1, 2), initial=0)
-        kept = (wettest > _encode(np.array(_TRACE))) | inflow.any(axis=(1, 2))
+        kept = (wettest > _encode(np.array(_TRACE))) | rained
         if np.count_nonzero(kept) > MOST_TILES:
             order = np.argsort(np.where(kept, wettest.astype(int), -1), kind="stable")
             kept[order[:-MOST_TILES]] = False
@@ -103,11 +108,10 @@ class WetTiles:
         root = self._codes.item(row, j & 7, i & 7) / _CODES
         return root * root * MOST
 
-    def data(self) -> WetTileData:
-        """The same as plain arrays."""
+    def arrays(self) -> tuple[float, NDArray[np.int64], NDArray[np.float32]]:
+        """(cell in m, tiles (n, 2), water (n, 8, 8) in mm, rows along z)."""
         places = np.array(self._places, np.int64).reshape(-1, 2)
-        water = _decode(self._codes[: len(places)]).astype(np.float32)
-        return WetTileData(self.cell, places, water)
+        return self.cell, places, _decode(self._codes[: len(places)]).astype(np.float32)
 
     # For snapshots
 
@@ -133,8 +137,8 @@ class WetTiles:
         level, places, codes = state["level"], state["places"], state["codes"]
         if type(level) is not int or not FINEST <= level <= COARSEST:
             raise InvalidValueError("wetness.level", level, f"{FINEST} to {COARSEST}")
-        if not isinstance(places, list) or not 0 < len(places) <= 2 * MOST_TILES:
-            raise InvalidValueError("wetness.places", places, f"1 to {2 * MOST_TILES} tiles")
+        if not isinstance(places, list) or len(places) > 2 * MOST_TILES:
+            raise InvalidValueError("wetness.places", places, f"up to {2 * MOST_TILES} tiles")
         named = [_place(place) for place in places]
         if any(one >= other for one, other in zip(named, named[1:], strict=False)):
             raise InvalidValueError("wetness.places", places, "tiles in order, each once")
@@ -147,7 +151,7 @@ class WetTiles:
             raise InvalidValueError("wetness.codes", codes, f"{4 * count} hexadecimal digits")
         steps = raw[count:].astype(np.int64) | raw[:count].astype(np.int64) << 8
         values = np.cumsum(steps) & 0xFFFF
-        if int(values.max()) > _CODES:
+        if int(values.max(initial=0)) > _CODES:
             raise InvalidValueError("wetness.codes", int(values.max()), f"0 to {_CODES}")
         tiles = cls(level)
         tiles._take(named, values.astype(np.uint16).reshape(-1, SIDE, SIDE))
@@ -167,22 +171,19 @@ class _Shares:
     ) -> None:
         (x, z), (a, b) = center, radii
         c, s = math.cos(heading), math.sin(heading)
-        wide, deep, tile = math.hypot(a * c, b * s), math.hypot(a * s, b * c), cell * SIDE
-        first = math.floor((x - wide) / tile), math.floor((z - deep) / tile)
-        last = math.floor((x + wide) / tile), math.floor((z + deep) / tile)
-        i, j = np.meshgrid(
-            np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1), indexing="ij"
+        u, w, tile = math.hypot(a * c, b * s), math.hypot(a * s, b * c), cell * SIDE
+        first = math.floor((x - u) / tile), math.floor((z - w) / tile)
+        last = math.floor((x + u) / tile), math.floor((z + w) / tile)
+        wide, deep = last[0] - first[0] + 1, last[1] - first[1] + 1
+        across = (np.arange(wide * SIDE) + 0.5) * cell + first[0] * tile
+        along = (np.arange(deep * SIDE) + 0.5) * cell + first[1] * tile
+        shares = area_shares(across, along[:, None], center, radii, heading, edge)
+        values = shares.reshape(deep, SIDE, wide, SIDE).swapaxes(1, 2)
+        wet = values.any(axis=(2, 3))
+        rows, columns = np.nonzero(wet)
+        self.places: list[tuple[int, int]] = list(
+            zip((columns + first[0]).tolist(), (rows + first[1]).tolist(), strict=True)
         )
-        places = np.stack([i.ravel(), j.ravel()], axis=1)
-        middles = (np.arange(SIDE) + 0.5) * cell
-        points = np.empty((len(places), SIDE, SIDE, 2))
-        points[..., 0] = places[:, 0, None, None] * tile + middles[None, None, :]
-        points[..., 1] = places[:, 1, None, None] * tile + middles[None, :, None]
-        with np.errstate(over="ignore"):  # infinitely deep inside a very thin edge is inside
-            shares = edge_factor(points.reshape(-1, 2), center, radii, heading, edge)
-        values = shares.reshape(-1, SIDE, SIDE)
-        wet = values.any(axis=(1, 2))
-        self.places: list[tuple[int, int]] = [(p, q) for p, q in places[wet].tolist()]
         self.values = values[wet]
 
 
