@@ -17,7 +17,14 @@ from tests.rain_frames import area, camera, frame, quality
 from tests.views import look_from, perspective
 from tests.worlds import fresh_world
 from weather_ecs import Weather, glsl
-from weather_ecs.components import Observer, Occluder, RainArea, RainGauge, Wind
+from weather_ecs.components import (
+    CollisionHeightmap,
+    Observer,
+    Occluder,
+    RainArea,
+    RainGauge,
+    Wind,
+)
 from weather_ecs.errors import ContextError
 from weather_ecs.frame import FrameData, OccluderData, ViewData, WetnessData
 from weather_ecs.gpu.blocks import BlockBuffer
@@ -560,3 +567,27 @@ def test_drawing_gauges_and_maps_leave_no_trace_in_a_snapshot(ctx: moderngl.Cont
         return data
 
     assert run(True) == run(False)
+
+
+@pytest.mark.usefixtures("world")
+@pytest.mark.parametrize(("resolution", "extent"), [(0.125, 1.05), (0.3, 8.0), (4.0, 2.0)])
+def test_maps_of_any_size(
+    ctx: moderngl.Context, reader: Reader, resolution: float, extent: float
+) -> None:
+    with Weather(context=ctx, quality="low") as weather:
+        limits = CollisionHeightmap()
+        esper.create_entity(limits)
+        esper.create_entity(RainArea((0, 0), (400, 400), 60.0))
+        esper.create_entity(ground(half=500.0))
+        for k in range(60):
+            if k == 20:
+                limits.resolution, limits.extent = resolution, extent
+            esper.process(0.5)
+            weather.draw(look_from((0, 1.7, 0), 0.0), perspective())
+        heightmap = weather._renderer.heightmap()
+        assert heightmap.size == pytest.approx(256 * resolution, abs=4)
+        assert heightmap.footprint.half == extent * 30.0
+        assert weather._renderer._wetness._observed[0].place.size == heightmap.size // 2 - 2
+        points = [(4.0, 0.0, 3.0), (-0.8 * extent * 30.0, 0.0, 20.0)]
+        expected = weather.sample(points[0]).wetness
+        assert reader(weather, points)[:, 0] == pytest.approx([expected] * 2, rel=0.05)

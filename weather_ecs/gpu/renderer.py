@@ -67,6 +67,7 @@ class Renderer:
             backend = "compute" if capabilities.compute else "feedback"
         self.backend: str = backend
         self.stats: dict[str, int | float] = {}
+        self._largest = int(ctx.info["GL_MAX_TEXTURE_SIZE"])
         self._gl = GL()
         self._guard = StateGuard(ctx, self._gl)
         self._made: list[Releasable] = []  # oldest first
@@ -181,7 +182,8 @@ class Renderer:
             return False
         heightmap = self._maps.get(view.key)
         look = view.frame.heightmap
-        size = 4 * round(settings.heightmap_size * look.resolution / 4.0)
+        size = min(settings.heightmap_size * look.resolution, self._largest)
+        size = 4 * max(round(size / 4.0), 4)
         if heightmap is None or heightmap.size != size:
             if heightmap is not None:
                 heightmap.release()
