@@ -40,7 +40,7 @@ from weather_ecs.gpu.wetness_pass import DRY_AFTER, ROUND, WetnessPass
 from weather_ecs.physics import wet_map
 from weather_ecs.physics.ellipse import edge_factor
 from weather_ecs.physics.footprint import fall_speed_over
-from weather_ecs.physics.wetness import DRYING, FILM, settle_one
+from weather_ecs.physics.wetness import DRYING, FILM, film_capacity, settle_one
 from weather_ecs.systems.rain_view import RainView
 from weather_ecs.systems.wet_ground import WetGround
 
@@ -202,7 +202,6 @@ def test_the_map_is_what_its_oracle_says(maps: Maps, wind: Point) -> None:
 
 
 def test_hollows_gather_and_slopes_shed() -> None:
-    still = np.linspace(0.2, 0.3, 64 * 64).reshape(64, 64)
     footprint = wet_map.Footprint((0.0, 0.0), 16.0, (0.0, 0.0), -80.0, 120.0)
     place = wet_map.place_over(footprint, 64)
     pit = np.full((64, 64), 0.5)
@@ -210,11 +209,23 @@ def test_hollows_gather_and_slopes_shed() -> None:
     found = wet_map.surface(place, footprint, pit, pit)
     middle = found.gathers[14:16, 14:16]
     assert (middle > 5.0).all() and found.gathers[3, 3] == 1.0
-    assert FILM + 20.0 < found.capacity[15, 15] < FILM + 30.0
-    steep = wet_map.surface(place, footprint, still, still)
-    assert (steep.capacity[5:-5, 5:-5] < FILM).any()
-    assert not found.covered.any()
-    assert wet_map.surface(place, footprint, pit, pit - 1.0 / 200.0).covered.all()
+    assert found.capacity[15, 15] == pytest.approx(FILM + 30.0, abs=0.1)
+    # A plane that rises by 0.8 a metre sheds, and is no hollow anywhere.
+    close = wet_map.Footprint((0.0, 0.0), 4.0, (0.0, 0.0), -80.0, 120.0)
+    plane = np.repeat(0.5 + 0.8 * 0.125 / 200.0 * np.arange(64.0)[:, None], 64, axis=1)
+    steep = wet_map.surface(wet_map.place_over(close, 64), close, plane, plane)
+    up = 1.0 / np.hypot(1.0, 0.8)
+    held = steep.capacity[8:-8, 8:-8]
+    np.testing.assert_allclose(held, film_capacity(up), rtol=0.05)
+    np.testing.assert_allclose(steep.facing[8:-8, 8:-8], up, rtol=0.02)
+    assert (steep.gathers[8:-8, 8:-8] == 1.0).all()
+    assert (found.exposed == 1.0).all()
+    assert (wet_map.surface(place, footprint, pit, pit - 1.0 / 200.0).exposed == 0.0).all()
+    rail = np.full((64, 64), 0.5)
+    rail[:, 20] -= 1.0 / 200.0
+    railed = wet_map.surface(place, footprint, rail, rail)
+    assert np.ptp(railed.position[..., 1]) < 1e-9  # the ground shows beside the rail
+    assert sorted(set(railed.exposed.ravel())) == [0.5, 1.0]
     assert not wet_map.surface(place, footprint, np.ones((64, 64)), pit).known.any()
 
 

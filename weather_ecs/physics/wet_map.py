@@ -61,7 +61,7 @@ class Surface:
     facing: NDArray[np.float64]  # rain on its own square metre over that on a level one
     capacity: NDArray[np.float64]  # mm
     gathers: NDArray[np.float64]  # times its own rain that comes to it
-    covered: NDArray[np.bool_]  # by something that moves
+    exposed: NDArray[np.float64]  # 0 to 1, share that rain reaches
 
 
 def surface(place: MapPlace, footprint: Footprint, still: NDArray, cover: NDArray) -> Surface:
@@ -70,30 +70,41 @@ def surface(place: MapPlace, footprint: Footprint, still: NDArray, cover: NDArra
     texel = 2.0 * footprint.half / m
     at = (np.arange(n) + 0.5 - 0.5 * n) * place.texel
     u, w = place.center[0] + at, place.center[1] + at
-    i = np.floor((u - footprint.center[0] + footprint.half) / texel + 0.5).astype(int)
-    j = np.floor((w - footprint.center[1] + footprint.half) / texel + 0.5).astype(int)
+    i = np.floor((u - footprint.center[0] + footprint.half) / texel - 0.5).astype(int)
+    j = np.floor((w - footprint.center[1] + footprint.half) / texel - 0.5).astype(int)
     span = footprint.top - footprint.bottom
     heights = np.where(still < 1.0, footprint.top - still.astype(float) * span, NOTHING)
 
-    def near(di: int, dj: int) -> NDArray[np.float64]:
-        h = heights[np.clip(j + dj, 0, m - 1)[:, None], np.clip(i + di, 0, m - 1)[None, :]]
-        return np.where(np.abs(h - y) < EDGE, h, y)
+    def fetch(table: NDArray, di: int, dj: int) -> NDArray[np.float64]:
+        rows, columns = np.clip(j + dj, 0, m - 1), np.clip(i + di, 0, m - 1)
+        return table[rows[:, None], columns[None, :]]
 
-    y = heights[np.clip(j, 0, m - 1)[:, None], np.clip(i, 0, m - 1)[None, :]]
-    top = footprint.top - cover[np.clip(j, 0, m - 1)[:, None], np.clip(i, 0, m - 1)[None, :]] * span
+    def near(di: int, dj: int, own: NDArray) -> NDArray[np.float64]:
+        h = fetch(heights, di, dj)
+        return np.where(np.abs(h - own) < EDGE, h, own)
+
+    block = [(0, 0), (1, 0), (0, 1), (1, 1)]
+    four = np.array([fetch(heights, *step) for step in block])
+    tops = footprint.top - np.array([fetch(cover, *step) for step in block]) * span
+    known = four > NOTHING
+    y = np.where(known, four, np.inf).min(axis=0)
+    y = np.where(np.isinf(y), NOTHING, y)
+    reached = known & (four - y <= SAME) & (tops - y <= np.maximum(four - y, 0.0) + COVERED)
     sx, sz = footprint.slope
-    rise_x = (near(1, 0) - near(-1, 0)) / (2.0 * texel)
-    rise_z = (near(0, 1) - near(0, -1)) / (2.0 * texel)
+    ends = [near(*at, y) for at in ((2, 0), (2, 1), (-1, 0), (-1, 1))]
+    rise_x = (ends[0] + ends[1] - ends[2] - ends[3]) / (6.0 * texel)
+    ends = [near(*at, y) for at in ((0, 2), (1, 2), (0, -1), (1, -1))]
+    rise_z = (ends[0] + ends[1] - ends[2] - ends[3]) / (6.0 * texel)
     scale = 1.0 / np.maximum(1.0 - rise_x * sx - rise_z * sz, 0.2)
     slope_x, slope_z = rise_x * scale, rise_z * scale
     up = 1.0 / np.sqrt(1.0 + slope_x**2 + slope_z**2)
-    deep = np.zeros_like(y)
+    deep, own = np.zeros_like(y), near(0, 0, y)
     for radius in RINGS:
         s = max(round(radius / texel), 1)
         d = max(int(0.7071 * s + 0.5), 1)
         ring = [(s, 0), (-s, 0), (0, s), (0, -s), (d, d), (-d, -d), (d, -d), (-d, d)]
-        mean = np.mean([near(*step) for step in ring], axis=0)
-        deep = np.maximum(deep, np.clip((mean - y) * 1000.0, 0.0, DEEPEST))
+        mean = np.mean([near(*step, own) for step in ring], axis=0)
+        deep = np.maximum(deep, np.clip((mean - own) * 1000.0, 0.0, DEEPEST))
     share = np.clip((deep - 1.0) / 19.0, 0.0, 1.0)
     position = np.stack([u[None, :] - y * sx, y, w[:, None] - y * sz], axis=-1)
     return Surface(
@@ -102,7 +113,7 @@ def surface(place: MapPlace, footprint: Footprint, still: NDArray, cover: NDArra
         np.maximum(1.0 + slope_x * sx + slope_z * sz, 0.0) * up,
         film_capacity(up) + deep,
         1.0 + CATCHMENT * share * share * (3.0 - 2.0 * share),
-        top - y >= COVERED,
+        reached.sum(axis=0) / np.maximum(known.sum(axis=0), 1),
     )
 
 
@@ -133,7 +144,7 @@ def step(
     found: Surface, water: NDArray, seconds: NDArray, rain_rate: NDArray
 ) -> NDArray[np.float64]:
     """mm after the rain (mm/h) of those seconds; 0 where nothing is known."""
-    inflow = np.where(found.covered, 0.0, rain_rate) * MM_PER_S * found.facing * found.gathers
+    inflow = rain_rate * found.exposed * MM_PER_S * found.facing * found.gathers
     result = np.zeros_like(water)
     for age in np.unique(seconds):
         now = found.known & (seconds == age)

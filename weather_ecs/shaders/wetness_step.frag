@@ -1,6 +1,8 @@
 // One texel of the wetness map: the water on what rain meets first there, and the height of that.
 // physics/wet_map.py is its oracle. The map lies like the collision heightmap, every texel over two
-// by two of its own. What lay at the same place of the world in the map before is carried on.
+// by two of its own, of whose surfaces it takes the lowest: thin rails do not hide the ground below
+// them, they keep a share of the rain off it. What lay at the same place of the world in the map
+// before is carried on.
 #include "wetness_law.glsl"
 #include "rain_area.glsl"
 #include "shelter.glsl"  // shelter_map is the layer of what does not move
@@ -29,6 +31,13 @@ float height_at(ivec2 at)
     return depth < 1.0 ? wet_heights.x - depth * shelter_size.y : NOTHING;
 }
 
+// The same of all that rain can hit, what moves included.
+float cover_at(ivec2 at)
+{
+    at = clamp(at, ivec2(0), ivec2(int(shelter_size.x) - 1));
+    return wet_heights.x - texelFetch(wet_cover, at, 0).r * shelter_size.y;
+}
+
 // A neighbour's height; the surface's own where that is another surface.
 float near_height(ivec2 at, float y)
 {
@@ -51,10 +60,15 @@ void main()
 {
     vec2 texel = floor(gl_FragCoord.xy);
     vec2 place = wet_frame.xy + (texel + 0.5 - 0.5 * wet_frame.w) * wet_frame.z;
-    ivec2 at = ivec2(floor((place - wet_shelter.xy) * wet_shelter.z + 0.5));
-    float y = height_at(at);
-    water = vec2(0.0, y);
-    if (y < -1e8) return;
+    ivec2 at = ivec2(floor((place - wet_shelter.xy) * wet_shelter.z - 0.5));
+    vec4 heights = vec4(height_at(at), height_at(at + ivec2(1, 0)), height_at(at + ivec2(0, 1)),
+                        height_at(at + ivec2(1)));
+    vec4 known = step(-1e8, heights);
+    vec4 found = mix(vec4(1e9), heights, known);
+    float y = min(min(found.x, found.y), min(found.z, found.w));
+    water = vec2(0.0, NOTHING);
+    if (y > 1e8) return;
+    water.g = y;
     vec3 p = vec3(place.x - y * shelter_fall.x, y, place.y - y * shelter_fall.y);
 
     // What lay here before.
@@ -74,19 +88,23 @@ void main()
 
     // Rain that reaches it since, on the slope's own square metre.
     float rate = 0.0;
-    float cover = texelFetch(wet_cover, clamp(at, ivec2(0), ivec2(int(shelter_size.x) - 1)), 0).r;
-    if (wet_heights.x - cover * shelter_size.y - y < COVERED)
-        for (int i = 0; i < wet_areas; ++i)
-            if (y < wet_area_shape[i].w)
-                rate += wet_area_rate[i].x
-                    * area_factor(p.xz, wet_area_axis[i], wet_area_shape[i]);
-    vec2 rise = vec2(near_height(at + ivec2(1, 0), y) - near_height(at - ivec2(1, 0), y),
-                     near_height(at + ivec2(0, 1), y) - near_height(at - ivec2(0, 1), y))
-        / (2.0 * shelter_size.z);
+    for (int i = 0; i < wet_areas; ++i)
+        if (y < wet_area_shape[i].w)
+            rate += wet_area_rate[i].x * area_factor(p.xz, wet_area_axis[i], wet_area_shape[i]);
+    vec4 tops = vec4(cover_at(at), cover_at(at + ivec2(1, 0)), cover_at(at + ivec2(0, 1)),
+                     cover_at(at + ivec2(1)));
+    vec4 open = step(heights - y, vec4(SAME)) * step(tops - y, max(heights - y, 0.0) + COVERED);
+    rate *= dot(known, open) / dot(known, vec4(1.0));
+    vec2 rise = vec2(near_height(at + ivec2(2, 0), y) + near_height(at + ivec2(2, 1), y)
+                         - near_height(at + ivec2(-1, 0), y) - near_height(at + ivec2(-1, 1), y),
+                     near_height(at + ivec2(0, 2), y) + near_height(at + ivec2(1, 2), y)
+                         - near_height(at + ivec2(0, -1), y) - near_height(at + ivec2(1, -1), y))
+        / (6.0 * shelter_size.z);
     vec2 slope = rise / max(1.0 - dot(rise, shelter_fall.xy), 0.2);
     float up = inversesqrt(1.0 + dot(slope, slope));
     float facing = max(1.0 + dot(slope, shelter_fall.xy), 0.0) * up;
-    float deep = max(hollow(at, wet_rings.x, y), hollow(at, wet_rings.y, y));
+    float own = near_height(at, y);  // the rings lie about this one of the four
+    float deep = max(hollow(at, wet_rings.x, own), hollow(at, wet_rings.y, own));
     float gathers = 1.0 + CATCHMENT * smoothstep(1.0, 20.0, deep);
     water.r = settle(w, rate / 3600.0 * facing * gathers, film_capacity(up) + deep, seconds);
 }
