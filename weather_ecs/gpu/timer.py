@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections import deque
 from types import TracebackType
+from typing import Self
 
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.gl import GL
@@ -60,7 +61,29 @@ class QueryRing:
         self._waiting.clear()
 
 
-class GpuTimer:
+class Measure:
+    """What measures from `begin` to `end`, or in a `with`."""
+
+    def begin(self) -> None:
+        """Measure from here on."""
+
+    def end(self) -> None:
+        """Measure up to here."""
+
+    def __enter__(self) -> Self:
+        self.begin()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.end()
+
+
+class GpuTimer(Measure):
     """Time the GPU takes between `begin` and `end`, or in a `with`.
 
     Two time stamps rather than an elapsed-time query, of which only one may run: the host's.
@@ -89,18 +112,6 @@ class GpuTimer:
         self._ring.put(self._open)
         self._open = None
 
-    def __enter__(self) -> GpuTimer:
-        self.begin()
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.end()
-
     def _poll(self) -> None:
         if self._ring is not None:
             for start, stop in self._ring.finished():
@@ -119,7 +130,7 @@ class GpuTimer:
             self._ring = None
 
 
-class PrimitiveCounter:
+class PrimitiveCounter(Measure):
     """Primitives that leave the vertex or geometry shader between `begin` and `end`.
 
     Skips a measurement while the host counts primitives itself.
@@ -148,18 +159,6 @@ class PrimitiveCounter:
         self._gl.glEndQuery(e.PRIMITIVES_GENERATED)
         self._ring.put(self._open)
         self._open = None
-
-    def __enter__(self) -> PrimitiveCounter:
-        self.begin()
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.end()
 
     def _poll(self) -> None:
         if self._ring is not None:
