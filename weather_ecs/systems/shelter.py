@@ -11,7 +11,6 @@ Callback occluders draw on the GPU alone and are not seen here.
 from __future__ import annotations
 
 import math
-from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +19,10 @@ from weather_ecs.frame import OccluderData
 from weather_ecs.physics.heightfield import Facets, Piece, pieces
 
 MARGIN = 0.25  # m above a point from which on something counts as cover
-_CHEAP = 1e-3  # s; an update that takes longer is made at most every _SOON seconds
-_SOON = 0.1  # s
-_BUDGET = 4e-3  # s of an update's time for facets that an older version can stand in for
+# Work is counted and not timed, so that a slow machine gives the same answers.
+_CHEAP = 500  # pieces, about 1 ms; an update of more is made at most every _SOON seconds
+_SOON = 0.1  # s of the weather's clock
+_BUDGET = 400  # triangles, about 4 ms, of facets that an older version can stand in for
 _KEPT = 4096  # facets that are remembered
 _FINEST = 4.0  # m, cell of the finest grid; every coarser one is twice as wide
 _OFFSET = 1 << 28  # makes cell numbers positive
@@ -38,35 +38,33 @@ class ShelterIndex:
         self._moving = _Layer(self._meshes, self._facets)
         self._seen: tuple[OccluderData, ...] = ()
         self._slope = (0.0, 0.0)
-        self._cost = 0.0  # s, of the last update
-        self._made = (-math.inf, -math.inf)  # weather's clock and the machine's, s
+        self._cost = 0  # pieces that the last update carried along
+        self._made = -math.inf  # s, the weather's clock then
+        self._told = -math.inf  # s, the weather's clock at the last update that was told
+        self._waits = True  # whether the clock moves, so that what is put off comes about
         self._due: tuple[tuple[OccluderData, ...], tuple[float, float], float] | None = None
 
     def update(
         self, occluders: tuple[OccluderData, ...], slope: tuple[float, float], time: float
     ) -> None:
         """What the frame knows: taken over when somebody asks, so that a draw pays nothing."""
+        self._waits, self._told = time != self._told, time
         self._due = (occluders, slope, time)
 
     def _catch_up(
         self, occluders: tuple[OccluderData, ...], slope: tuple[float, float], time: float
     ) -> None:
-        self._due = None
-        if occluders is self._seen and slope == self._slope:
-            return
-        now = perf_counter()
-        waited = max(abs(time - self._made[0]), now - self._made[1])
-        if self._cost > _CHEAP and waited < _SOON:
-            return
-        self._facets.spent = 0.0
-        solid = [o for o in occluders if o.vertices is not None]
-        changed = self._still.update([o for o in solid if not o.dynamic], slope)
-        changed |= self._moving.update([o for o in solid if o.dynamic], slope)
-        if changed:
+        if occluders is not self._seen or slope != self._slope:
+            soon = abs(time - self._made) < _SOON
+            if self._cost > _CHEAP and soon and self._waits:
+                return
+            self._facets.spent = 0
+            solid = [o for o in occluders if o.vertices is not None]
+            self._cost = self._still.update([o for o in solid if not o.dynamic], slope)
+            self._cost += self._moving.update([o for o in solid if o.dynamic], slope)
             self._meshes.keep_used()
-        self._seen, self._slope = occluders, slope
-        self._made = (time, perf_counter())
-        self._cost = self._made[1] - now
+            self._seen, self._slope, self._made = occluders, slope, time
+        self._due = None
 
     def covers(self, x: float, y: float, z: float) -> bool:
         """Whether something at least MARGIN above the point keeps the rain off it."""
@@ -96,7 +94,7 @@ class _Meshes:
 
     def keep_used(self) -> None:
         """Forget what nobody has asked for for a while."""
-        if len(self._known) > 2 * len(self._used) + 64:
+        if self._used and len(self._known) > 2 * len(self._used) + 64:
             self._known = {k: v for k, v in self._known.items() if k in self._used}
         self._used.clear()
 
@@ -106,7 +104,7 @@ class _FacetStore:
 
     def __init__(self) -> None:
         self._known: dict[tuple[Piece, bytes, tuple[float, float]], Facets] = {}
-        self.spent = 0.0  # s, since the last update
+        self.spent = 0  # triangles made ready since the last update
 
     def get(
         self,
@@ -123,11 +121,10 @@ class _FacetStore:
             return known, True
         if before is not None and self.spent > _BUDGET:
             return before, False
-        started = perf_counter()
         known = self._known[key] = Facets(piece, turn, slope)
         if len(self._known) > _KEPT:
             self._known.pop(next(iter(self._known)))
-        self.spent += perf_counter() - started
+        self.spent += len(piece.corners)
         return known, True
 
 
@@ -152,10 +149,10 @@ class _Layer:
         self._starts: list[int] = []
         self._members: list[int] = []
 
-    def update(self, occluders: list[OccluderData], slope: tuple[float, float]) -> bool:
-        """Take over these occluders; returns whether meshes were looked up."""
+    def update(self, occluders: list[OccluderData], slope: tuple[float, float]) -> int:
+        """Take over these occluders; returns how many pieces were carried along."""
         if occluders == self._occluders and slope == self._slope:
-            return False
+            return 0
         if slope != self._slope:
             self._ready = [None] * len(self._pieces)
         self._occluders, self._slope = occluders, slope
@@ -166,12 +163,11 @@ class _Layer:
         shape = [
             (id(o.vertices), id(o.indices), e) for o, e in zip(occluders, exponents, strict=True)
         ]
-        fresh = shape != self._shape
-        if fresh:
+        if shape != self._shape:
             self._restructure(exponents)
             self._shape = shape
         self._place(transforms)
-        return fresh
+        return len(self._pieces)
 
     def _restructure(self, exponents: list[int]) -> None:
         self._pieces, self._owner = [], []
