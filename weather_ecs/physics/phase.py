@@ -23,7 +23,7 @@ CUT = 0.005  # share of rain or snow below which there is none
 def wet_bulb(temperature: ArrayLike, humidity: ArrayLike) -> FloatArray:
     """Wet-bulb temperature at sea level from temperature (degrees Celsius) and humidity (0 to 1).
 
-    Stull (2011, J. Appl. Meteor. Climatol. 50, 2267), a fit to the psychrometric equation, -1 to
+    Stull (2011, J. Appl. Meteor. Climatol. 50, 2267), a fit to measured tables, by his count -1 to
     0.65 K off it for -20 to 50 degrees, 5 to 99 % relative humidity and not less than about
     27.7 - 2.27 T %: cold and dry air is outside. There and beyond, the depression T - T_w is that
     at the nearest end of the range; from 99 to 100 % it goes to 0. Takes -100 to 100 degrees.
