@@ -177,20 +177,25 @@ def extinction_of_sampled(rain_rate: ArrayLike) -> FloatArray:
     return 2.0 * number_density(rain_rate) * mean_cross_section(rain_rate)
 
 
-def _mean_power(k: int, steepness: FloatArray, faster: float = 0.0) -> FloatArray:
-    """Mean of D^k exp(-faster (D - 0.5)) over the drops of 0.5 to 6 mm in the air.
+def moment(k: int, decay: ArrayLike, diameter_mm: ArrayLike = LARGEST_DROP) -> FloatArray:
+    """Integral of x^k exp(-decay (x - 0.5)) from x = 0.5 to the diameter, mm^(k + 1).
 
-    By repeated integration by parts from D = 0.5, where the exponential is 1.
+    By repeated integration by parts from x = 0.5, where the exponential is 1.
     """
-    decay = np.where(np.isinf(steepness), 1.0, steepness) + faster
-    width = LARGEST_DROP - SMALLEST_DROP
-    end = np.exp(-decay * width)
-    integral = (1.0 - end) / decay
+    rate, top = np.asarray(decay, np.float64), np.asarray(diameter_mm, np.float64)
+    end = np.exp(-rate * (top - SMALLEST_DROP))
+    integral = (1.0 - end) / rate
     for power in range(1, k + 1):
-        ends = SMALLEST_DROP**power - LARGEST_DROP**power * end
-        integral = (ends + power * integral) / decay
-    whole = -np.expm1(-(decay - faster) * width) / (decay - faster)
-    return np.where(np.isinf(steepness), SMALLEST_DROP**k, integral / whole)
+        ends = SMALLEST_DROP**power - top**power * end
+        integral = (ends + power * integral) / rate
+    return integral
+
+
+def _mean_power(k: int, steepness: FloatArray, faster: float = 0.0) -> FloatArray:
+    """Mean of D^k exp(-faster (D - 0.5)) over the drops of 0.5 to 6 mm in the air."""
+    decay = np.where(np.isinf(steepness), 1.0, steepness)
+    whole = -np.expm1(-decay * (LARGEST_DROP - SMALLEST_DROP)) / decay
+    return np.where(np.isinf(steepness), SMALLEST_DROP**k, moment(k, decay + faster) / whole)
 
 
 def _water_per_drop(rate: FloatArray) -> FloatArray:
