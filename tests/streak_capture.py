@@ -50,6 +50,8 @@ def view_of(view: ViewData, height: int) -> StreakView:
         sky.sun_color,
         tuple((view.frame.look.brightness * drop_light(sky)).tolist()),
         np.column_stack([rows["position"], rows["reach"], rows["color"]]),
+        view.frame.fog.color,
+        view.frame.fog.extinction,
     )
 
 

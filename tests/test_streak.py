@@ -13,7 +13,7 @@ import pytest
 
 from tests.rain_frames import area, camera, frame, lights, quality
 from tests.streak_capture import Captured, StreakCapture, law_of, view_of
-from weather_ecs.frame import ContainerData, DropLook, FrameData, SkyLight, ViewData
+from weather_ecs.frame import ContainerData, DropLook, FogData, FrameData, SkyLight, ViewData
 from weather_ecs.physics import rain_step, streak
 from weather_ecs.physics.camera import Camera
 from weather_ecs.physics.drops import drop_density, mean_cross_section
@@ -88,6 +88,8 @@ SCENES = {
     "cloudburst": scene(frame(area(rain_rate=150.0)), camera()),
     "drizzle": scene(frame(area(rain_rate=0.3)), camera()),
     "narrow angle": scene(frame(FAR), camera((0.0, 1.7, 60.0), NORTH, vertical=6.0)),
+    "fog": scene(frame(INSIDE, lights=LAMPS, fog=FogData(0.1, (0.2, 0.3, 0.9))), camera()),
+    "far, in haze": scene(frame(FAR, fog=FogData(0.01)), camera((0.0, 1.7, 60.0), NORTH)),
     "dark": scene(frame(INSIDE, sky=SkyLight(zenith_color=(0, 0, 0), horizon_color=(0, 0, 0),
                                              ground_color=(0, 0, 0))), camera()),
     "other looks": scene(

@@ -14,7 +14,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tests.rain_frames import area, camera, frame, quality
-from weather_ecs.frame import SkyLight, VeilData, ViewData
+from weather_ecs.frame import FogData, SkyLight, VeilData, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.rain_blocks import RAIN_VIEW
 from weather_ecs.gpu.shader_loader import ShaderLoader
@@ -22,6 +22,7 @@ from weather_ecs.gpu.veil_pass import VeilPass
 from weather_ecs.gpu.view_block import encode, fill_view, veil_light
 from weather_ecs.physics import veil
 from weather_ecs.physics.camera import Camera
+from weather_ecs.physics.optics import fog_factor
 from weather_ecs.systems.rain_view import RainView
 
 SIZE = (96, 54)
@@ -115,9 +116,12 @@ def test_the_profile_and_the_opacity() -> None:
 # The shader
 
 
-def only(at: Camera, data: VeilData, sky: SkyLight | None = None) -> ViewData:
+CLEAR = FogData(extinction=0.0)
+
+
+def only(at: Camera, data: VeilData, fog: FogData = CLEAR) -> ViewData:
     """A view in which there is this veil and nothing else."""
-    seen = frame(sky=sky or SkyLight())
+    seen = frame(fog=fog)
     return ViewData(seen, 0, at.view, at.projection, at.position, (0.0, 0.0, 0.0), 0.0, (), (data,))
 
 
@@ -269,6 +273,44 @@ def test_many_views_of_many_veils(stage: Stage) -> None:
             (-3e4, rng.uniform(50, 400)), rng.uniform(0.001, 0.05), rng.choice([0.0, 5.0, 40.0]),
         )  # fmt: skip
         assert_same(stage.draw(only(at, data)), oracle(at, data))
+
+
+FOG = FogData(1.0 / 80.0, (0.1, 0.3, 0.8))
+
+
+@pytest.mark.parametrize("name", [n for n in SCENES if "straight" not in n])
+def test_rain_in_fog_takes_its_colour(stage: Stage, name: str) -> None:
+    at, data = SCENES[name]
+    there = oracle(at, data)
+    away = veil.rain_distance(
+        at.position, rays_of(at), math.inf, data.axis, data.shape, data.span[1], data.shown,
+        data.extinction,
+    )  # fmt: skip
+    left = fog_factor(np.maximum(away, 0.0), FOG.extinction)[..., None]
+    wanted = encode(veil_light(SkyLight())) * left + encode(np.array(FOG.color)) * (1.0 - left)
+    found = stage.draw(only(at, data, FOG))
+    drawn = there > 0.02
+    off = np.abs(found[..., :3] - wanted).max(axis=2) * np.maximum(there, 0.05)
+    assert off[drawn].max(initial=0.0) <= GRAIN * 1.1 + 1e-3
+    assert np.abs(found[..., 3] - there)[drawn].max(initial=0.0) <= 2e-3
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.floats(0.0, 300.0), st.floats(1.0, 400.0), st.floats(1e-4, 0.05), st.floats(1e-4, 0.02))
+def test_fog_before_rain_is_about_what_the_integral_has(
+    start: float, way: float, rain: float, fog: float
+) -> None:
+    """Mean of what the fog leaves, over the light that comes from every depth of the rain."""
+    radius = 0.5 * way
+    found = veil.rain_distance(
+        (-start - radius, 1.0, 0.0), np.array([[1.0, 0.0, 0.0]]), math.inf, (0.0, 0.0, 1.0, 0.0),
+        (radius, radius, 0.9999), 500.0, 0.0, rain,
+    )[0]  # fmt: skip
+    x = (np.arange(2000) + 0.5) * (way / 2000)
+    weight = np.exp(-rain * x)
+    mean = float((weight * np.exp(-fog * (start + x))).sum() / weight.sum())
+    assert math.exp(-fog * found) == pytest.approx(mean, abs=0.12)
+    assert start <= found <= start + radius
 
 
 def test_the_scene_cuts_the_ray(stage: Stage) -> None:

@@ -166,8 +166,9 @@ class AirData:
 class FogData:
     """What the air takes from the view; see `components.Fog`."""
 
-    extinction: float = 3.912 / 50_000.0  # 1/m, at the observer: clean air, fog, rain and snow
+    extinction: float = 3.912 / 50_000.0  # 1/m, of the air and its fog; rain and snow are more
     color: tuple[float, float, float] = (0.68, 0.73, 0.78)  # linear RGB
+    depth: float = 250.0  # m of it above the eye, before the sky
     draw: bool = False  # over the whole picture, for games whose shaders know no fog
 
 
@@ -306,6 +307,8 @@ class ViewData:
     dt: float  # s, weather time since this observer's last view
     containers: tuple[ContainerData, ...]
     veils: tuple[VeilData, ...]
+    # m: how far the air at the reference height has gone along x and z; its turbulence over time.
+    air_run: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,8 +13,8 @@ RAIN_STEP = UniformBlock(
     ("from_shape", "vec4"),  # forward reach, lateral reach, bottom, height
     ("to_axis", "vec4"),
     ("to_shape", "vec4"),
-    ("rain_wind", "vec4"),  # m/s, and the step in s
     ("rain_law", "vec4"),
+    ("rain_dt", "float"),  # s, of the step
     ("rain_seed", "uint"),
     ("rain_count", "uint"),
     ("rain_fresh", "uint"),  # drops from here on begin anew
@@ -37,6 +37,8 @@ RAIN_VIEW = UniformBlock(
     ("sun_color", "vec4"),
     ("drop_color", "vec4"),  # what a drop shows of the sky, linear
     ("veil_color", "vec4"),  # encoded
+    ("fog_color", "vec4"),  # linear; 1/m times log2(e), of the air without rain and snow
+    ("fog_shown", "vec4"),  # the same colour encoded
     ("light_position", "vec4", MAX_LIGHTS),  # m, and reach
     ("light_color", "vec4", MAX_LIGHTS),
     ("light_count", "int"),

@@ -11,6 +11,8 @@ from weather_ecs.frame import SkyLight, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.rain_blocks import MAX_LIGHTS
 
+LOG2_E = 1.0 / math.log(2.0)  # shaders raise 2 to a power, which costs them less than e
+
 
 def encode(linear: NDArray) -> NDArray:
     """Linear light to what an 8-bit target shows; as shaders/encode.glsl."""
@@ -51,6 +53,9 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     data["sun_color"] = (*sky.sun_color, 0.0)
     data["drop_color"][:3] = look.brightness * drop_light(sky)
     data["veil_color"][:3] = encode(veil_light(sky))
+    fog = view.frame.fog
+    data["fog_color"] = (*fog.color, fog.extinction * LOG2_E)
+    data["fog_shown"][:3] = encode(np.array(fog.color))
     _fill_lights(block, view)
 
 

@@ -42,6 +42,8 @@ class StreakView:
     sun_color: tuple[float, float, float]
     drop_color: tuple[float, float, float]  # what a drop shows of the sky
     lights: NDArray = field(default_factory=no_lights)  # (n, 7): position, reach in m, colour
+    fog_color: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    fog: float = 0.0  # 1/m, extinction of the air between camera and drops
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,9 +92,10 @@ def drop_weight(
 
 
 def light_on(p: NDArray, view: StreakView) -> FloatArray:
-    """Linear RGB that drops at p show: sky, sun glow and point lights, (n, 3)."""
+    """Linear RGB that drops at p show: sky, sun glow, point lights, and fog before them, (n, 3)."""
     ray = p - np.asarray(view.position)
-    ray = ray / np.linalg.norm(ray, axis=1, keepdims=True)
+    far = np.linalg.norm(ray, axis=1, keepdims=True)
+    ray = ray / far
     glow = np.maximum(ray @ np.asarray(view.sun_direction), 0.0) ** 8
     light = np.asarray(view.drop_color) + np.asarray(view.sun_color) * (0.6 * glow)[:, None]
     for lamp in view.lights:
@@ -102,7 +105,8 @@ def light_on(p: NDArray, view: StreakView) -> FloatArray:
         toward = (ray * away).sum(axis=1) / np.sqrt(np.maximum(r2, 1e-12))
         forward = 0.35 + 0.65 * np.maximum(toward, 0.0) ** 4
         light = light + lamp[4:7] * (fade * fade * forward / (1.0 + 0.5 * r2))[:, None]
-    return light
+    left = np.exp(-view.fog * far)
+    return light * left + np.asarray(view.fog_color) * (1.0 - left)
 
 
 def streaks(p: NDArray, v: NDArray, birth: NDArray, view: StreakView, law: StreakLaw) -> Streaks:

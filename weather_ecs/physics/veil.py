@@ -106,6 +106,36 @@ def rain_path(
     return np.where(t1 > t0, path / (1.0 - inner) * length, 0.0)
 
 
+def rain_distance(
+    position: tuple[float, float, float],
+    ray: NDArray,
+    end: ArrayLike,
+    axis: tuple[float, ...],
+    shape: tuple[float, float, float],
+    ceiling: float,
+    shown: float,
+    extinction: float,
+) -> FloatArray:
+    """Distance in m at which one sees the rain of a ray, for the fog before it; as `rain_path`.
+
+    The light of rain at an even rate, seen through rain, comes from 1 / (2 + its optical depth)
+    of the way deep: the middle where it is thin, one optical depth where it is thick.
+    """
+    t0, t1 = rain_span(position, ray, end, ceiling, shown)
+    lost = extinction * rain_path(position, ray, end, axis, shape, ceiling, shown)
+    c, s = axis[2], axis[3]
+    ox, oz = position[0] - axis[0], position[2] - axis[1]
+    u, w = (ox * c - oz * s) / shape[0], (ox * s + oz * c) / shape[1]
+    du = (ray[..., 0] * c - ray[..., 2] * s) / shape[0]
+    dw = (ray[..., 0] * s + ray[..., 2] * c) / shape[1]
+    a = np.maximum(du * du + dw * dw, 1e-12)
+    middle = -(u * du + w * dw) / a
+    half_chord = np.sqrt(np.maximum(1.0 - (u * dw - w * du) ** 2 / a, 0.0) / a)
+    near, far = np.maximum(t0, middle - half_chord), np.minimum(t1, middle + half_chord)
+    along = near + (far - near) / (2.0 + lost)
+    return np.asarray(along * np.sqrt((ray * ray).sum(axis=-1)))
+
+
 def opacity(path: ArrayLike, extinction: float) -> FloatArray:
     """What a veil covers, 0 to 1: the light that does not get through."""
     return -np.expm1(-np.asarray(path, np.float64) * extinction)

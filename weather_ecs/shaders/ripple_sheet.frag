@@ -2,6 +2,7 @@
 #include <block:RainView>
 #include <block:RippleSheet>
 #include "encode.glsl"
+#include "fog.glsl"
 #include "ripple_sample.glsl"
 #ifdef SHELTER
 #include "shelter.glsl"
@@ -82,5 +83,5 @@ void main()
     float path = water_path(away / dot(vs_ray, camera_forward.xyz), away);
     float opacity = max(1.0 - exp(-path * sheet_color.w), fresnel);
     opacity *= min(path * steep * 10.0, 1.0);
-    color = vec4(encode(mix(body, light, fresnel)), opacity);
+    color = vec4(encode(in_fog(mix(body, light, fresnel), away)), opacity);
 }

@@ -3,6 +3,7 @@
 #include "splash.glsl"
 #include "drop_light.glsl"
 #include "encode.glsl"
+#include "fog.glsl"
 
 out vec3 vs_at;
 out vec3 vs_normal;
@@ -40,7 +41,9 @@ void main()
     vec2 margin = (3.0 * radius + THROWN) * camera_position.w * 2.0 / view_size.xy;
     if (pixels < 0.2 || any(greaterThan(abs(clip.xy), clip.ww + margin))) return;
 
-    vec3 ray = normalize(i.position - camera_position.xyz);
+    vec3 ray = i.position - camera_position.xyz;
+    float away = length(ray);
+    ray /= away;
     float opacity = splash_look.w * min(i.weight * 0.1, 1.0) * smoothstep(0.2, 0.6, clip.w);
     float x = i.age / splash_look.z;
     // Seen from above, an upright picture has nothing to show: the film is there then.
@@ -50,7 +53,7 @@ void main()
     if (max(crown, detail) < FAINTEST) return;
     vs_at = i.position;
     vs_normal = i.normal;
-    vs_color = vec4(encode(drop_light(i.position, ray)), crown);
+    vs_color = vec4(encode(in_fog(drop_light(i.position, ray), away)), crown);
     vs_form = vec4(radius, x, on_water(i.position), i.seed);
     vs_throw = vec3(i.speed * splash_spray.z * min(high, 1.0), i.age, detail);
 }

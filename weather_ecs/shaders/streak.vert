@@ -5,6 +5,7 @@
 #include "landed.glsl"
 #include "drop_light.glsl"
 #include "encode.glsl"
+#include "fog.glsl"
 #include <block:RainView>
 
 in vec3 in_position;
@@ -52,6 +53,7 @@ void main()
     vs_head = head;
     vs_tail = tail;
 
-    vec3 light = drop_light(p, normalize(p - camera_position.xyz));
-    vs_color = vec4(encode(light), opacity);
+    vec3 way = p - camera_position.xyz;
+    float away = length(way);
+    vs_color = vec4(encode(in_fog(drop_light(p, way / away), away)), opacity);
 }

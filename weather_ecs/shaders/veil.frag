@@ -3,6 +3,7 @@
 // quadratic in t, the rain rate's share is (1 - f) / (1 - f_in), at most 1: its integral is closed.
 #include <block:RainView>
 #include <block:Veil>
+#include "fog.glsl"
 
 uniform sampler2D scene_depth;
 
@@ -55,10 +56,17 @@ void main()
     t0 -= middle;
     t1 -= middle;
     float path = over_level(outer, t0, t1) - over_level(inner, t0, t1);
-    path *= sqrt(length2) / (over_a * (1.0 - veil_shape.z));
-    float opacity = 1.0 - exp(-veil_load.x * path);
+    float per_t = sqrt(length2);
+    path *= per_t / (over_a * (1.0 - veil_shape.z));
+    float optical = veil_load.x * path;
+    float opacity = 1.0 - exp(-optical);
     if (opacity < 0.002) discard;
+    // What there is to see of the rain lies about one optical depth deep in it, at most in its middle.
+    float half_chord = sqrt(outer);
+    float near = max(t0, -half_chord);
+    float along = near + (min(t1, half_chord) - near) / (2.0 + optical);
+    vec3 shown = mix(fog_shown.rgb, veil_color.rgb, fog_left((along + middle) * per_t));
     // A pixel's own grain, under one step of an 8-bit target, keeps the soft ramp from banding.
     float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-    color = vec4(veil_color.rgb + (grain - 0.5) * (1.6 / 255.0) / max(opacity, 0.05), opacity);
+    color = vec4(shown + (grain - 0.5) * (1.6 / 255.0) / max(opacity, 0.05), opacity);
 }
