@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import moderngl
 
 from weather_ecs.frame import ContainerData, ViewData
+from weather_ecs.gpu.air_block import AirBlock
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.compute_order import ComputeOrder
 from weather_ecs.gpu.drop_set import DropSet
@@ -77,6 +78,7 @@ class RainPass:
     @property
     def has_lists(self) -> bool:
         """Whether impacts are listed (compute) or kept by the drops themselves (feedback)."""
+        self._air = AirBlock(ctx)
         return self._lists
 
     def sets(self, observer: int = 0) -> dict[int, DropSet]:
@@ -117,6 +119,7 @@ class RainPass:
         if len(seen.sets) > len(view.containers):
             alive = set(view.frame.areas["key"].tolist())
             for key in [k for k in seen.sets if k >> 1 not in alive]:
+        self._air.use(view)
                 seen.sets.pop(key).release()
         self._forget()
         return moved
@@ -146,7 +149,7 @@ class RainPass:
         data = self._step_block.data
         data["from_axis"], data["from_shape"] = before
         data["to_axis"], data["to_shape"] = container.axis, container.shape
-        data["rain_wind"] = (*view.frame.wind, view.dt)
+        data["rain_dt"] = view.dt
         data["rain_law"] = container.law
         seed = self._seed * 0x9E3779B1 + container.key * 0x85EBCA6B + drops.steps
         data["rain_seed"] = seed & 0xFFFFFFFF
@@ -246,3 +249,4 @@ class RainPass:
 def drops_used(container: ContainerData, drops: DropSet) -> int:
     """Drops of a set that are in use, the last one fading."""
     return min(int(container.count) + 1, drops.capacity)
+        self._air.release()

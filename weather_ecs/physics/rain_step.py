@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.physics.container import Container
 from weather_ecs.physics.shelter import ShelterMap
+from weather_ecs.physics.turbulence import AirFlow, air_velocity
 
 # As in shaders/landed.glsl.
 LANDED = 8192.0
@@ -35,6 +36,7 @@ class Step:
     law: tuple[float, float, float, float]
     seed: int
     fresh: int  # drops from here on begin anew
+    flow: AirFlow | None = None  # of the air; None: `wind` everywhere
 
 
 def axis_of(container: Container) -> tuple[float, float, float, float]:
@@ -128,6 +130,13 @@ def fall_speeds(diameter: NDArray) -> NDArray:
     return np.maximum(F(9.65) - F(10.3) * np.exp(F(-0.6) * diameter), F(0.0)).astype(F)
 
 
+def _drift(p: NDArray, fall: NDArray, s: Step) -> NDArray[np.float32]:
+    """Velocities in the air's motion at p, (n, 3)."""
+    drift = air_velocity(p, s.flow or AirFlow(s.wind[:3]))
+    drift[:, 1] -= fall
+    return drift
+
+
 def _follow(at: NDArray, drift: NDArray, own: NDArray, s: Step) -> tuple[NDArray, NDArray]:
     """The container's move and turn as a map of the half disc before onto the one after."""
     axis = (*s.to_axis[:2], *s.from_axis[2:])
@@ -174,8 +183,7 @@ def step(
     """
     ids = np.arange(len(birth), dtype=U)
     fall = fall_speeds(diameters(birth[:, 3], s.law))
-    drift = np.tile(np.asarray(s.wind[:3], F), (len(birth), 1))
-    drift[:, 1] -= fall
+    drift = _drift(p, fall, s)
     begins = ids >= s.fresh
     landed = ~begins & (v[:, 1] > 1024.0)
     motion = np.where((landed | begins)[:, None], drift, v)
@@ -192,7 +200,7 @@ def step(
     p = np.where(begins[:, None], first, p)
     elsewhere |= begins
     landed &= ~elsewhere
-    motion = np.where(elsewhere[:, None], drift, motion)
+    motion = np.where(elsewhere[:, None], _drift(p, fall, s), motion)
     v = np.where(landed[:, None], held, motion)
     if shelter is not None:
         v = _land(shelter, before, p, v, landed, elsewhere)

@@ -32,6 +32,10 @@ from weather_ecs.errors import InvalidValueError
 
 from .checks import FloatArray, floats, number
 
+# m above the ground between which the wind grows with height: from the roughness length of open
+# land to the gradient height, where it no longer feels the ground (Davenport 1960).
+LOWEST, HIGHEST = 0.03, 300.0
+
 
 def gust(
     t: ArrayLike,
@@ -98,6 +102,13 @@ def power_law(height: ArrayLike, reference: float = 10.0, exponent: float = 0.14
     with np.errstate(over="ignore"):
         rise = (up / number("reference", reference, 0.0, above=True)) ** power
     return np.where(up > 0.0, rise, 0.0)
+
+
+def height_share(height: float, reference: float, exponent: float) -> float:
+    """`power_law` at one height within LOWEST and HIGHEST, as the weather uses it."""
+    if exponent == 0.0:
+        return 1.0
+    return float((min(max(height, LOWEST), HIGHEST) / reference) ** exponent)
 
 
 def _times(t: ArrayLike, **joints: float) -> tuple[FloatArray, list[FloatArray]]:

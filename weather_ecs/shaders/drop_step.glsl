@@ -13,6 +13,7 @@
 #include "drop_law.glsl"
 #include "drop_weight.glsl"
 #include "landed.glsl"
+#include "turbulence.glsl"
 #include <block:RainStep>
 #ifdef SHELTER
 #include "shelter.glsl"
@@ -127,7 +128,7 @@ bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v, out vec3 normal)
 {
     float s = birth.z;
     float fall = drop_speed(drop_diameter(birth.w, rain_law));
-    vec3 drift = vec3(rain_wind.x, rain_wind.y - fall, rain_wind.z);
+    vec3 drift = air_velocity(p) - vec3(0.0, fall, 0.0);
     bool elsewhere = id >= rain_fresh;
     bool landed = !elsewhere && has_landed(v);
     vec3 motion = landed || elsewhere ? drift : v;
@@ -136,7 +137,7 @@ bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v, out vec3 normal)
         p.xz = from_container(birth.xy, to_axis, to_shape.xy);
         p.y = to_shape.z + to_shape.w * hash_unit(id * 2u + 1u);
     } else {
-        float dt = rain_wind.w;
+        float dt = rain_dt;
         // Drag brings a drop to the air's own motion with the time constant of its terminal speed.
         motion += (drift - motion) * (1.0 - exp(-dt * 9.8 / max(fall, 0.1)));
         p += motion * dt;
@@ -144,7 +145,7 @@ bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v, out vec3 normal)
     }
     if (elsewhere) {
         landed = false;
-        motion = drift;
+        motion = air_velocity(p) - vec3(0.0, fall, 0.0);
     }
     bool hits = false;
     normal = vec3(0.0, 1.0, 0.0);

@@ -62,6 +62,7 @@ class _Observed:
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     placed: dict[int, _Placed] = field(default_factory=dict)
     fresh: bool = True  # not viewed yet
+    air_run: tuple[float, float, float] = (0.0, 0.0, 0.0)  # m, see ViewData
 
 
 class RainView:
@@ -87,6 +88,7 @@ class RainView:
             seen.velocity = _velocity(seen, camera.position, dt)
         # In a pause too: where the observer went then is no motion.
         seen.position, seen.time = camera.position, frame.time
+        seen.air_run = _air_run(seen.air_run, frame, min(dt, 1.0))
         containers = self._containers(frame, camera, seen, settings, min(dt, 1.0))
         veiled = settings.veil and frame.look.veil > 0.0
         return ViewData(
@@ -99,6 +101,7 @@ class RainView:
             dt=min(dt, _LONGEST_STEP),
             containers=tuple(containers),
             veils=tuple(self._veils(frame, seen, containers)) if veiled else (),
+            air_run=seen.air_run,
         )
 
     def _containers(
@@ -230,6 +233,17 @@ def _velocity(
     blend = 1.0 - math.exp(-dt / 0.05)
     x, y, z = (v + (n - v) * blend for v, n in zip(seen.velocity, now, strict=True))
     return (x, y, z)
+
+
+def _air_run(
+    run: tuple[float, float, float], frame: FrameData, dt: float
+) -> tuple[float, float, float]:
+    """How far the air has gone and its eddies have turned, m; a sum, so that no change of the wind
+    puts them elsewhere."""
+    x, z, turned = run
+    return (
+        x + frame.wind[0] * dt, z + frame.wind[2] * dt, turned + frame.profile.turbulence * dt
+    )  # fmt: skip
 
 
 @lru_cache(maxsize=256)

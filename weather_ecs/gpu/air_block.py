@@ -1,0 +1,60 @@
+"""The uniform block of the air's motion, which everything that drifts includes."""
+
+from __future__ import annotations
+
+import moderngl
+
+from weather_ecs.frame import ViewData
+from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+from weather_ecs.physics.turbulence import AirFlow, air_flow
+
+AIR_FLOW = UniformBlock(
+    "AirFlow",
+    ("air_wind", "vec4"),  # m/s, at the reference height; 1 / that height above the ground, 1/m
+    ("air_shape", "vec4"),  # exponent of the growth with height; m, world height of the ground
+    ("air_gain", "vec4"),  # m/s, standard deviation of the octaves; 0: there is no turbulence
+    ("air_octave", "vec4", 3),  # phases along its axes in rad, wave number in 1/m
+)
+
+
+class AirBlock:
+    """The block `AirFlow` of one view; see `shaders/turbulence.glsl`."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._block = BlockBuffer(ctx, AIR_FLOW)
+        self._view: ViewData | None = None
+
+    def use(self, view: ViewData) -> None:
+        """Bring the block up to date with a view, and bind it."""
+        if view is not self._view:
+            self._view = view
+            fill_air(self._block, flow_of(view))
+            self._block.upload()
+        self._block.bind()
+
+    def release(self) -> None:
+        """Give the buffer back; twice does no harm."""
+        self._block.release()
+
+
+def flow_of(view: ViewData) -> AirFlow:
+    """The motion of the air that a view's drops feel."""
+    it = view.frame.profile
+    return air_flow(
+        view.frame.wind,
+        reference=it.reference,
+        exponent=it.exponent,
+        ground=it.ground,
+        turbulence=it.turbulence,
+        scale=it.scale,
+        run=view.air_run,
+    )
+
+
+def fill_air(block: BlockBuffer, flow: AirFlow) -> None:
+    """Write a flow into the block."""
+    data = block.data
+    data["air_wind"] = (*flow.wind, 1.0 / flow.reference)
+    data["air_shape"] = (flow.exponent, flow.ground, 0.0, 0.0)
+    data["air_gain"] = (*flow.gains, float(any(flow.gains)))
+    data["air_octave"] = flow.octaves

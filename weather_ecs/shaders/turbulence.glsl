@@ -1,0 +1,53 @@
+// The air's velocity at a place: the wind by its profile, and three octaves of eddies in it that
+// are free of divergence; physics/turbulence.py is its oracle, symbol for symbol.
+#include <block:AirFlow>
+
+const float LOWEST_WIND = 0.03;    // m above the ground; below, the wind is that there
+const float HIGHEST_WIND = 300.0;  // m; above, too
+const float EDDY_HALF_PI = 1.57079633;
+const mat3 EDDY_AXES[3] = mat3[3](
+    mat3(0.66666667, 0.66666667, -0.33333333,
+         -0.33333333, 0.66666667, 0.66666667,
+         0.66666667, -0.33333333, 0.66666667),
+    mat3(0.28571429, 0.42857143, 0.85714286,
+         0.42857143, -0.85714286, 0.28571429,
+         0.85714286, 0.28571429, -0.42857143),
+    mat3(0.11111111, -0.44444444, 0.88888889,
+         0.88888889, 0.44444444, 0.11111111,
+         -0.44444444, 0.77777778, 0.44444444)
+);
+
+// Without the turbulence, m/s.
+vec3 mean_velocity(vec3 p)
+{
+    float height = clamp(p.y - air_shape.y, LOWEST_WIND, HIGHEST_WIND);
+    return air_wind.xyz * exp2(air_shape.x * log2(height * air_wind.w));
+}
+
+vec3 eddies_of(int k, vec3 p, float height)
+{
+    vec4 octave = air_octave[k];
+    mat3 axes = EDDY_AXES[k];
+    vec3 q = p * axes * octave.w + octave.xyz;
+    vec3 s = sin(q);
+    vec3 c = cos(q);
+    vec3 u = axes * (s.zxy + c.yzx);
+    float a = min(octave.w * height, EDDY_HALF_PI);
+    float up = sin(a);
+    float level = cos(a);
+    return air_gain[k] * vec3(up * u.x + level * u.z, up * u.y, up * u.z - level * u.x);
+}
+
+vec3 eddies(vec3 p)
+{
+    float height = max(p.y - air_shape.y, 0.0);
+    return eddies_of(0, p, height) + eddies_of(1, p, height) + eddies_of(2, p, height);
+}
+
+// At a place of the world, now, m/s.
+vec3 air_velocity(vec3 p)
+{
+    vec3 v = mean_velocity(p);
+    if (air_gain.w > 0.0) v += eddies(p);
+    return v;
+}
