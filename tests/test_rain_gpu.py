@@ -237,7 +237,8 @@ def test_impacts_beyond_the_room_of_a_frame_are_counted_and_not_written(
         impacts = rain.impacts()
         assert impacts is not None
         records, total, dropped = impacts.read()
-        assert len(records) == 4 and dropped > 0 and total > dropped
+        assert len(records) == 4 and dropped > 0
+        assert 0 < total - dropped <= 4 * 30
         assert np.isfinite(records["position"]).all()
     finally:
         rain.release()

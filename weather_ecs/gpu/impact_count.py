@@ -55,8 +55,8 @@ class ImpactCount:
         elif self._done is not None:
             for _ in self._done.finished():
                 copy = self._waiting.popleft()
-                total, before, _ = np.frombuffer(copy.read(), np.uint32).tolist()
-                self._latest = (total - before) & 0xFFFFFFFF
+                written, dropped, *before = np.frombuffer(copy.read(), np.uint32).tolist()
+                self._latest = (written + dropped - sum(before)) & 0xFFFFFFFF
                 self._free.append(copy)
         return self._latest
 

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 RECORD_BYTES = 48  # place and time; normal and diameter; speed, weight, seed
-COUNT_BYTES = 12  # total, total when the frame began, dropped
+COUNT_BYTES = 16  # written and dropped, ever; the same when the frame began
+# After these: the work groups for what has sunk in a step, three words, and how much that is; then
+# the same at rest, to copy from. As in impact_counts.glsl.
+_STEP, _AT_REST = 16, 32
+SUNK_BYTES = 16  # a drop's place before the step, and which it is
 IMPACT_DTYPE = np.dtype(
     [
         ("position", "f4", 3),  # m
@@ -28,7 +34,10 @@ class ImpactList:
     def __init__(self, ctx: moderngl.Context, capacity: int) -> None:
         self._ctx = ctx
         self.capacity = capacity
-        self.counts = ctx.buffer(data=b"\0" * COUNT_BYTES)
+        words = np.zeros(12, np.uint32)
+        words[9:11] = 1
+        self.counts = ctx.buffer(data=words)
+        self.sunk = ctx.buffer(reserve=SUNK_BYTES * capacity)
         # A time far back, so that what was never written is old.
         empty = np.zeros(capacity, IMPACT_DTYPE)
         empty["time"] = -1e6
@@ -36,18 +45,27 @@ class ImpactList:
 
     def begin_frame(self) -> None:
         """From here on this frame's room is counted; nothing is read back."""
-        self._ctx.copy_buffer(self.counts, self.counts, 4, read_offset=0, write_offset=4)
+        self._ctx.copy_buffer(self.counts, self.counts, 8, read_offset=0, write_offset=8)
 
-    def bind(self) -> None:
-        self.counts.bind_to_storage_buffer(2)
+    def begin_step(self) -> None:
+        """Nothing of a container has sunk yet; binds what its step and `find` write."""
+        counts = self.counts
+        self._ctx.copy_buffer(counts, counts, 16, read_offset=_AT_REST, write_offset=_STEP)
+        counts.bind_to_storage_buffer(2)
         self.records.bind_to_storage_buffer(3)
+        self.sunk.bind_to_storage_buffer(4)
+
+    def find(self, program: Any) -> None:
+        """Find what has been hit by the drops that have sunk in this step."""
+        program.run_indirect(self.counts, _STEP)
 
     def read(self) -> tuple[NDArray, int, int]:
-        """(records, how many were met in all, how many found no room); waits: for tests."""
-        total, _, dropped = np.frombuffer(self.counts.read(), np.uint32).tolist()
-        return np.frombuffer(self.records.read(), IMPACT_DTYPE), total, dropped
+        """(records, how many there were in all, how many found no room); waits: for tests."""
+        written, dropped, *_ = np.frombuffer(self.counts.read(), np.uint32).tolist()
+        return np.frombuffer(self.records.read(), IMPACT_DTYPE), written + dropped, dropped
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
         self.records.release()
+        self.sunk.release()
         self.counts.release()

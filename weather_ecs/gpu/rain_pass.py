@@ -26,7 +26,16 @@ _COUNT_FADE = 0.1
 
 DRAW = ProgramKey(vertex="streak.vert", geometry="streak.geom", fragment="streak.frag")
 COMPUTE = ProgramKey(compute="rain_step.comp")
+FIND = ProgramKey(compute="impact_find.comp")
 FEEDBACK = ProgramKey(vertex="rain_step.vert", varyings=("out_position", "out_velocity"))
+
+# How what a step has written is read: by the search for hits, and by all that comes after.
+_LISTED = moderngl.SHADER_STORAGE_BARRIER_BIT | moderngl.COMMAND_BARRIER_BIT
+_MOVED = (
+    moderngl.VERTEX_ATTRIB_ARRAY_BARRIER_BIT
+    | moderngl.SHADER_STORAGE_BARRIER_BIT
+    | moderngl.BUFFER_UPDATE_BARRIER_BIT
+)
 
 
 @dataclass(slots=True)
@@ -59,6 +68,9 @@ class RainPass:
         # Without and with a collision heightmap.
         self._steps = [shaders.program(key), shaders.program(replace(key, defines=("SHELTER",)))]
         self._steps[1]["shelter_map"] = SHELTER_UNIT
+        self._find = shaders.program(FIND) if self._lists else None
+        if self._find is not None:
+            self._find["shelter_map"] = SHELTER_UNIT
         self._draw_program = shaders.program(DRAW)
         self._order = ComputeOrder(ctx)
         self._cull = shaders.program(CULL) if self._lists else None
@@ -161,13 +173,15 @@ class RainPass:
         if self._lists:
             drops.births.bind_to_storage_buffer(0)
             drops.states[0].bind_to_storage_buffer(1)
-            if impacts is not None:
-                impacts.bind()
+            lists = impacts if sheltered else None
+            if lists is not None:
+                lists.begin_step()
             kernel = self._steps[sheltered]
             kernel.run((count + GROUP - 1) // GROUP)  # type: ignore[attr-defined]
-            self._order.after(
-                moderngl.VERTEX_ATTRIB_ARRAY_BARRIER_BIT | moderngl.SHADER_STORAGE_BARRIER_BIT
-            )
+            if lists is not None:
+                self._order.after(_LISTED)
+                lists.find(self._find)
+            self._order.after(_MOVED)
         else:
             following = 1 - drops.current
             drops.array("sheltered step" if sheltered else "step").transform(

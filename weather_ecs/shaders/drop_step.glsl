@@ -109,7 +109,8 @@ bool meets(vec3 a, vec3 b, out float share, out vec3 normal)
 {
     float low = 0.0;
     share = 1.0;
-    for (int i = 0; i < 12; ++i) {
+    // Twelve times. Not counted, so that compilers do not unroll it for drops that hit nothing.
+    while (share - low > 1.0 / 4096.0) {
         float middle = 0.5 * (low + share);
         if (below_surface(mix(a, b, middle)) > 0.0) share = middle;
         else low = middle;
@@ -120,11 +121,25 @@ bool meets(vec3 a, vec3 b, out float share, out vec3 normal)
     normal = corners_normal(c, part);
     return below_corners(m, c, part) < 0.25;
 }
+
+// Where a drop that step_drop has found below the surface has met it on its way from `before` to p:
+// v is then the hit, see landed.glsl, and normal that of the surface. False where it met nothing.
+bool find_hit(vec3 before, vec3 p, inout vec3 v, out vec3 normal)
+{
+    vec3 a = shelter_place(before);
+    normal = vec3(0.0, 1.0, 0.0);
+    if (!in_shelter_map(a) || below_texel(a) > 0.0) return false;
+    float share;
+    if (!meets(a, shelter_place(p), share, normal)) return false;
+    vec3 at = mix(before, p, share);
+    v = vec3(at.x, at.y + LANDED, at.z);
+    return true;
+}
 #endif
 
-// True where the drop has hit something in this step; v is then the hit, see landed.glsl, and normal
-// that of the surface.
-bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v, out vec3 normal)
+// True where the drop has come below the surface on a way that find_hit can look at. It has landed
+// then, and v says so, as for one that came in under cover.
+bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
 {
     float s = birth.z;
     float fall = drop_speed(drop_diameter(birth.w, rain_law));
@@ -132,7 +147,6 @@ bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v, out vec3 normal)
     bool elsewhere = id >= rain_fresh;
     bool landed = !elsewhere && has_landed(v);
     vec3 motion = landed || elsewhere ? drift : v;
-    vec3 before = p;
     if (elsewhere) {
         p.xz = from_container(birth.xy, to_axis, to_shape.xy);
         p.y = to_shape.z + to_shape.w * hash_unit(id * 2u + 1u);
@@ -147,25 +161,13 @@ bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v, out vec3 normal)
         landed = false;
         motion = air_velocity(p) - vec3(0.0, fall, 0.0);
     }
-    bool hits = false;
-    normal = vec3(0.0, 1.0, 0.0);
-    vec3 hit = vec3(0.0);
 #ifdef SHELTER
     vec3 m = shelter_place(p);
     if (!landed && in_shelter_map(m) && below_texel(m) > 0.0) {
-        landed = true;
-        hit = vec3(p.x, NO_IMPACT, p.z);
-        vec3 m0 = shelter_place(before);
-        if (!elsewhere && in_shelter_map(m0) && below_texel(m0) <= 0.0) {
-            float share;
-            hits = meets(m0, m, share, normal);
-            vec3 at = mix(before, p, share);
-            if (hits) hit = vec3(at.x, at.y + LANDED, at.z);
-        }
-        v = hit;
-        return hits;
+        v = vec3(p.x, NO_IMPACT, p.z);
+        return !elsewhere;
     }
 #endif
     if (!landed) v = motion;
-    return hits;
+    return false;
 }

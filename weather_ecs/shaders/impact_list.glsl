@@ -1,17 +1,16 @@
 // The list of impacts that the compute backend keeps: a ring, bounded in every frame. What comes when
 // a frame's room is used up is counted and not written.
-layout(std430, binding = 2) buffer ImpactCount {
-    uint impact_total;    // written and not written, ever
-    uint impact_before;   // the same, when this frame began
-    uint impact_dropped;  // not written, ever
-};
+#include "impact_counts.glsl"
+
 layout(std430, binding = 3) writeonly buffer Impacts { vec4 impacts[]; };  // three a record
 
 void append_impact(vec3 at, float time, vec3 normal, float diameter, float speed, float weight,
                    float seed)
 {
     uint k = atomicAdd(impact_total, 1u);
-    if (k - impact_before >= impact_capacity) {
+    if (k - total_before >= impact_capacity) {
+        // Taken back; meanwhile no other can find room either.
+        atomicAdd(impact_total, 0xFFFFFFFFu);
         atomicAdd(impact_dropped, 1u);
         return;
     }

@@ -1,9 +1,12 @@
-// Moves the drops of one container, in place, and lists what they hit: the single kernel of the
-// compute backend.
+// Moves the drops of one container, in place: the single kernel of the compute backend. What a drop
+// that has come below the surface has hit is left to impact_find.comp: those are few in a step, and
+// here they would hold up all the others of their group.
 layout(local_size_x = 128) in;
 #include "drop_step.glsl"
 #ifdef SHELTER
-#include "impact_list.glsl"
+#include "impact_counts.glsl"
+
+layout(std430, binding = 4) writeonly buffer Sunk { uvec4 sunk[]; };  // place before, and drop
 #endif
 
 layout(std430, binding = 0) readonly buffer Births { vec4 births[]; };
@@ -14,11 +17,10 @@ void main()
     uint id = gl_GlobalInvocationID.x;
     if (id >= rain_count) return;
     uint k = id * 6u;
-    vec4 birth = births[id];
-    vec3 p = vec3(drops[k], drops[k + 1u], drops[k + 2u]);
+    vec3 before = vec3(drops[k], drops[k + 1u], drops[k + 2u]);
+    vec3 p = before;
     vec3 v = vec3(drops[k + 3u], drops[k + 4u], drops[k + 5u]);
-    vec3 normal;
-    bool hits = step_drop(id, birth, p, v, normal);
+    bool sinks = step_drop(id, births[id], p, v);
     drops[k] = p.x;
     drops[k + 1u] = p.y;
     drops[k + 2u] = p.z;
@@ -26,15 +28,14 @@ void main()
     drops[k + 4u] = v.y;
     drops[k + 5u] = v.z;
 #ifdef SHELTER
-    if (hits) {
-        vec3 at = vec3(v.x, v.y - LANDED, v.z);
-        float d;
-        float weight = drop_weight(at, birth.z, int(id), d);
-        float diameter = drop_diameter(birth.w, rain_law);
-        float speed = drop_speed(diameter);
-        float age = max(at.y - p.y, 0.0) / max(speed, 0.1);
-        if (weight > 0.0)
-            append_impact(at, rain_time - age, normal, diameter, speed, weight, birth.w);
+    if (sinks) {
+        uint at = atomicAdd(sunk_count, 1u);
+        if (at >= impact_capacity) {
+            atomicAdd(impact_dropped, 1u);
+            return;
+        }
+        sunk[at] = uvec4(floatBitsToUint(before), id);
+        if (at % FIND_GROUP == 0u) atomicAdd(find_groups.x, 1u);
     }
 #endif
 }

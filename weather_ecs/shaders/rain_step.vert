@@ -11,8 +11,11 @@ void main()
 {
     vec3 p = in_position;
     vec3 v = in_velocity;
+    bool sinks = step_drop(uint(gl_VertexID), in_birth, p, v);
+#ifdef SHELTER
     vec3 normal;
-    step_drop(uint(gl_VertexID), in_birth, p, v, normal);
+    if (sinks) find_hit(in_position, p, v, normal);
+#endif
     out_position = p;
     out_velocity = v;
     gl_Position = vec4(0.0);
