@@ -78,6 +78,7 @@ class RainPass:
         if backend == "feedback":
             self._programs |= {"step": self._steps[0], "sheltered step": self._steps[1]}
         self._step_block = BlockBuffer(ctx, RAIN_STEP)
+        self._air = AirBlock(ctx)
         self._draw_block = BlockBuffer(ctx, RAIN_DRAW)
 
     def add_reader(self, name: str, program: moderngl.Program) -> None:
@@ -90,7 +91,6 @@ class RainPass:
     @property
     def has_lists(self) -> bool:
         """Whether impacts are listed (compute) or kept by the drops themselves (feedback)."""
-        self._air = AirBlock(ctx)
         return self._lists
 
     def sets(self, observer: int = 0) -> dict[int, DropSet]:
@@ -119,6 +119,7 @@ class RainPass:
             seen.impacts.begin_frame()
         self._step_block.bind()
         self._draw_block.bind()
+        self._air.use(view)
         for container in view.containers:
             drops = self._drops(seen, container)
             drops.last_used = self._draws
@@ -131,7 +132,6 @@ class RainPass:
         if len(seen.sets) > len(view.containers):
             alive = set(view.frame.areas["key"].tolist())
             for key in [k for k in seen.sets if k >> 1 not in alive]:
-        self._air.use(view)
                 seen.sets.pop(key).release()
         self._forget()
         return moved
@@ -258,9 +258,9 @@ class RainPass:
             self.forget(observer)
         self._draw_block.release()
         self._step_block.release()
+        self._air.release()
 
 
 def drops_used(container: ContainerData, drops: DropSet) -> int:
     """Drops of a set that are in use, the last one fading."""
     return min(int(container.count) + 1, drops.capacity)
-        self._air.release()
