@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import weather_ecs.components as components
+from tests.cloud_fields import FIELDS as CLOUD_FIELDS
 from weather_ecs.components import (
     SNAPSHOT_COMPONENTS,
     CollisionHeightmap,
@@ -206,6 +207,7 @@ def test_bad_values_name_the_field_and_change_nothing(kind, name, values):
 
 def test_every_field_of_every_component_is_among_the_cases():
     tried = {(kind, name) for kind, name, _ in CASES}
+    tried |= {(kind, name) for kind, them in CLOUD_FIELDS.items() for name in them}
     for kind in (*SNAPSHOT_COMPONENTS.values(), Observer, RainGauge):
         for field in dataclasses.fields(kind):
             assert (kind, field.name) in tried

@@ -11,6 +11,7 @@ import json
 import struct
 import zlib
 from dataclasses import fields
+from math import inf, isfinite
 from typing import Any, NamedTuple
 
 import esper
@@ -18,7 +19,7 @@ import numpy as np
 
 from weather_ecs.clock import Clock
 from weather_ecs.components import SNAPSHOT_COMPONENTS
-from weather_ecs.components._base import Component
+from weather_ecs.components._base import Component, set_unchecked
 from weather_ecs.errors import InvalidValueError, SnapshotError
 from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.wet_ground import WetGround
@@ -27,6 +28,7 @@ MAGIC = b"WECS"
 VERSION = 1
 LARGEST = 32 * 1024 * 1024  # bytes of JSON; a bomb stops there
 MOST_UIDS = 2**53
+DEEPEST = 12  # a layer's skies, their models, seeds and roots with their vectors
 
 _HEADER = struct.Struct("<4sHII")  # magic, version, length of the JSON, CRC-32 of the rest
 _NAMES = {
@@ -103,7 +105,7 @@ def capture(state: WeatherState) -> dict[str, Any]:
             if esper.entity_exists(entity):
                 uid = state.uids.by_entity[entity]
                 entities.setdefault(uid, {})[name] = {
-                    field: getattr(component, field) for field in _NAMES[name]
+                    field: _plain(getattr(component, field)) for field in _NAMES[name]
                 }
     return {
         "clock": state.clock.state(),
@@ -179,7 +181,7 @@ def apply(state: WeatherState, loaded: Loaded) -> None:
                 esper.add_component(known, component)
             else:
                 for name in _NAMES[kind.__name__]:
-                    setattr(present, name, getattr(component, name))
+                    set_unchecked(present, name, getattr(component, name))
         assigned[known] = uid
     state.seed = loaded.seed
     state.rng = loaded.rng
@@ -194,7 +196,31 @@ def _component(name: str, values: Any) -> Component:
         raise SnapshotError(f"the snapshot holds a component {name!r} that is unknown here")
     if not isinstance(values, dict) or tuple(sorted(values)) != _NAMES[name]:
         raise SnapshotError(f"the snapshot's {name} has other fields than {_NAMES[name]}")
-    return kind(**values)
+    return kind(**{field: _restored(value) for field, value in values.items()})
+
+
+def _plain(value: Any) -> Any:
+    """A field's value as JSON has it: nested components as objects, infinity as one too."""
+    if type(value) is float:
+        return value if isfinite(value) else {"float": repr(value)}
+    if isinstance(value, Component):
+        return {f.name: _plain(getattr(value, f.name)) for f in fields(value)}  # type: ignore[arg-type]
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    return value
+
+
+def _restored(value: Any, depth: int = 0) -> Any:
+    """The inverse of `_plain`; objects stay mappings, which the components' checks take."""
+    if depth > DEEPEST:
+        raise SnapshotError("the snapshot holds values nested too deeply")
+    if isinstance(value, list):
+        return [_restored(item, depth + 1) for item in value]
+    if isinstance(value, dict):
+        if value == {"float": "inf"}:
+            return inf
+        return {name: _restored(item, depth + 1) for name, item in value.items()}
+    return value
 
 
 def _generator(state: Any) -> np.random.Generator:

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 from weather_ecs.components._base import Component
+from weather_ecs.components.climate import Climate
+from weather_ecs.components.cloud import Cloud
+from weather_ecs.components.cloud_model import CloudModel
+from weather_ecs.components.cloud_root import CloudRoot
+from weather_ecs.components.cloud_seed import CloudSeed
 from weather_ecs.components.collision_heightmap import CollisionHeightmap
 from weather_ecs.components.observer import Observer
 from weather_ecs.components.occluder import Occluder
@@ -11,6 +16,8 @@ from weather_ecs.components.rain_area import RainArea
 from weather_ecs.components.rain_container import RainContainer
 from weather_ecs.components.rain_gauge import RainGauge
 from weather_ecs.components.ripple_surface import RippleSurface
+from weather_ecs.components.sky import Sky
+from weather_ecs.components.sky_layer import SkyLayer
 from weather_ecs.components.splash_emitter import SplashEmitter
 from weather_ecs.components.sun import Sun
 from weather_ecs.components.wind import Wind
@@ -20,11 +27,15 @@ from weather_ecs.components.wind import Wind
 SNAPSHOT_COMPONENTS: dict[str, type[Component]] = {
     kind.__name__: kind
     for kind in (
+        Climate,
+        Cloud,
+        CloudModel,
         CollisionHeightmap,
         PointLight,
         RainArea,
         RainContainer,
         RippleSurface,
+        SkyLayer,
         SplashEmitter,
         Sun,
         Wind,
@@ -32,6 +43,11 @@ SNAPSHOT_COMPONENTS: dict[str, type[Component]] = {
 }
 
 __all__ = [
+    "Climate",
+    "Cloud",
+    "CloudModel",
+    "CloudRoot",
+    "CloudSeed",
     "CollisionHeightmap",
     "Observer",
     "Occluder",
@@ -40,6 +56,8 @@ __all__ = [
     "RainContainer",
     "RainGauge",
     "RippleSurface",
+    "Sky",
+    "SkyLayer",
     "SplashEmitter",
     "Sun",
     "Wind",

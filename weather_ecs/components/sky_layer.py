@@ -1,0 +1,52 @@
+"""`SkyLayer`: the clouds of one height, over a rectangle of the world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from weather_ecs.components._agreeing import Agreeing, parts
+from weather_ecs.components._base import FAR, Check, number, vector
+from weather_ecs.components.rain_area import FASTEST
+from weather_ecs.components.sky import Sky
+from weather_ecs.errors import InvalidValueError
+
+
+@dataclass(eq=False, slots=True)
+class SkyLayer(Agreeing):
+    """Clouds at one height that drift across a rectangle (Torchelsen 2005, 3.4).
+
+    At the start the rectangle is filled from the sky whose state is nearest. A cloud that leaves it
+    is gone, and another comes in on the upwind side, drawn from the two skies round the state of
+    its `Climate`: the one on the same entity, or else the oldest entity's. Without any, the state
+    is 0. Layers are independent of each other; several may lie above one another. A rectangle in
+    which a cloud of its skies does not fit is refused when the clouds are made.
+    """
+
+    base: float = 1000.0  # m, world height of the clouds' bases, -1000 to 1e5
+    center: tuple[float, float] = (0.0, 0.0)  # (x, z), m, of the rectangle; each within 1e7
+    size: tuple[float, float] = (20_000.0, 20_000.0)  # (x, z), m, whole sides, 1 to 1e7
+    skies: tuple[Sky, ...] = ()  # in any order, no two of the same state, at most 64
+    variation: float = 0.0  # m, 0 to 1e4: bases differ by up to this either way
+    velocity: tuple[float, float] = (0.0, 0.0)  # (x, z), m/s, the layer's own; each within 150
+    drift: float = 1.0  # 0 to 1: share of the weather's wind that is added to it
+    shear: tuple[float, float] = (0.0, 0.0)  # (x, z), m of lean per m of height, each within 10
+
+    checks: ClassVar[dict[str, Check]] = {
+        "base": number(-1.0e3, 1.0e5),
+        "center": vector(2, -FAR, FAR),
+        "size": vector(2, 1.0, FAR),
+        "skies": parts(Sky, 64),
+        "variation": number(0.0, 1.0e4),
+        "velocity": vector(2, -FASTEST, FASTEST),
+        "drift": number(0.0, 1.0),
+        "shear": vector(2, -10.0, 10.0),
+    }
+
+    def agree(self) -> None:
+        states = [sky.state for sky in self.skies]
+        for index, state in enumerate(states):
+            if state in states[:index]:
+                raise InvalidValueError(
+                    "SkyLayer.skies", f"two skies of state {state:g}", "states that all differ"
+                )
