@@ -19,7 +19,9 @@ import weather_ecs.components as components
 from tests.cloud_fields import FIELDS as CLOUD_FIELDS
 from weather_ecs.components import (
     SNAPSHOT_COMPONENTS,
+    Air,
     CollisionHeightmap,
+    Fog,
     Observer,
     PointLight,
     RainArea,
@@ -53,6 +55,12 @@ def make(kind: type) -> object:
 
 
 CASES = [
+    (Air, "temperature", [-60, 60.0, np.float32(-0.5)]),
+    (Air, "humidity", [0, 1]),
+    (Fog, "visibility", [0, 50.0, 1e7]),
+    (Fog, "color", [(0, 0, 0), np.array([1, 2, 1000])]),
+    (Fog, "depth", [0, 1e5]),
+    (Fog, "draw", [True, np.bool_(False)]),
     (RainArea, "center", [(1, 2), [1, 2], np.array([1.0, 2.0]), np.array([1, 2], np.int32)]),
     (RainArea, "radii", [(5, 5), (60.0, 40.0), np.array([9, 1])]),
     (RainArea, "rain_rate", [0, 25.0, np.float32(3.0), np.int64(7), Fraction(1, 2)]),
@@ -61,6 +69,7 @@ CASES = [
     (RainArea, "ceiling", [-5, 3000]),
     (RainArea, "velocity", [(150, -150)]),
     (RainArea, "drift", [0, 1, 0.5]),
+    (RainArea, "onset", [0, 1, 0.3]),
     (RainContainer, "reach", [2, 500]),
     (RainContainer, "height", [2, 500]),
     (RainContainer, "margin", [0, 100]),
@@ -114,6 +123,11 @@ CASES = [
     (RainGauge, "window", [0.1, 3600]),
 ]
 BAD = [
+    (Air, "temperature", [-101, 100.1]),
+    (Air, "humidity", [-0.1, 1.1, 80]),
+    (Fog, "visibility", [-1, 2e7]),
+    (Fog, "depth", [-1, 2e5]),
+    (Fog, "draw", [0, 1, "yes"]),
     (CollisionHeightmap, "resolution", [0.12, 4.1]),
     (CollisionHeightmap, "extent", [1.0, 8.1]),
     (CollisionHeightmap, "layers", [-1, 2**32, 1.0]),
@@ -127,6 +141,7 @@ BAD = [
     (RainArea, "ceiling", [2e5]),
     (RainArea, "velocity", [(151, 0), (0,)]),
     (RainArea, "drift", [-0.1, 1.1]),
+    (RainArea, "onset", [-0.1, 1.1]),
     (RainContainer, "reach", [0, -1, 501]),
     (RainContainer, "height", [0]),
     (RainContainer, "margin", [-1]),

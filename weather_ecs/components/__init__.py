@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from weather_ecs.components._base import Component
+from weather_ecs.components.air import Air
 from weather_ecs.components.climate import Climate
 from weather_ecs.components.cloud import Cloud
 from weather_ecs.components.cloud_model import CloudModel
 from weather_ecs.components.cloud_root import CloudRoot
 from weather_ecs.components.cloud_seed import CloudSeed
 from weather_ecs.components.collision_heightmap import CollisionHeightmap
+from weather_ecs.components.fog import Fog
 from weather_ecs.components.observer import Observer
 from weather_ecs.components.occluder import Occluder
 from weather_ecs.components.point_light import PointLight
@@ -27,10 +29,12 @@ from weather_ecs.components.wind import Wind
 SNAPSHOT_COMPONENTS: dict[str, type[Component]] = {
     kind.__name__: kind
     for kind in (
+        Air,
         Climate,
         Cloud,
         CloudModel,
         CollisionHeightmap,
+        Fog,
         PointLight,
         RainArea,
         RainContainer,
@@ -43,12 +47,14 @@ SNAPSHOT_COMPONENTS: dict[str, type[Component]] = {
 }
 
 __all__ = [
+    "Air",
     "Climate",
     "Cloud",
     "CloudModel",
     "CloudRoot",
     "CloudSeed",
     "CollisionHeightmap",
+    "Fog",
     "Observer",
     "Occluder",
     "PointLight",

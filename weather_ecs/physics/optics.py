@@ -9,8 +9,15 @@ from numpy.typing import ArrayLike
 
 from .checks import FloatArray, floats
 from .drops import extinction
+from .snow import snow_extinction
 
 CONTRAST = 3.912  # ln 50: Koschmieder, an object is seen down to 2 % of its contrast
+CLEAR_VISIBILITY = 50_000.0  # m, in clean air
+LEAST_VISIBILITY = 1.0  # m, the thickest fog there is
+CLEAR = CONTRAST / CLEAR_VISIBILITY  # 1/m
+_RAIN = float(extinction(1.0))  # 1/m at 1 mm/h
+_RAIN_POWER = 0.63  # three times the 0.21 of Marshall and Palmer's slope
+_SNOW = float(snow_extinction(1.0))
 
 
 def fog_factor(distance: ArrayLike, density: ArrayLike) -> FloatArray:
@@ -44,3 +51,16 @@ def extinction_to_visibility(extinction: ArrayLike) -> FloatArray:
 def visibility_in_rain(rain_rate: ArrayLike, clear: ArrayLike = math.inf) -> FloatArray:
     """How far one sees through rain (mm/h), in air that shows `clear` metres without it."""
     return extinction_to_visibility(extinction(rain_rate) + visibility_to_extinction(clear))
+
+
+def air_extinction(visibility: float) -> float:
+    """Extinction (1/m) of air with fog in which one sees this far, at most 50 km and at least 1 m.
+
+    Clean air and fog together: a thing at the visibility's distance keeps 2 % of its contrast.
+    """
+    return CONTRAST / min(max(visibility, LEAST_VISIBILITY), CLEAR_VISIBILITY)
+
+
+def falling_extinction(rain_rate: float, snow_rate: float) -> float:
+    """Extinction (1/m) of rain and snow (mm/h of water) at one point; nothing is checked."""
+    return float(_RAIN * rain_rate**_RAIN_POWER + _SNOW * snow_rate)
