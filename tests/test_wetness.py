@@ -106,7 +106,7 @@ def rain(seconds: float, step: float = 0.5) -> None:
 
 def test_a_minute_of_heavy_rain():
     weather = Weather()
-    heavy = RainArea((0, 0), (70, 45), 25.0, soft_edge=12.0)
+    heavy = RainArea((0, 0), (70, 45), 25.0, soft_edge=12.0, onset=0.0)
     esper.create_entity(heavy)
     rain(60)
     expected = settle_one(0.0, 25.0 / 3600.0, FILM, 60.0)
@@ -125,7 +125,7 @@ def test_a_minute_of_heavy_rain():
 
 def test_wetness_of_a_point_follows_the_law_through_changing_rain():
     weather = Weather()
-    it = RainArea((0, 0), (60, 60), 5.0)
+    it = RainArea((0, 0), (60, 60), 5.0, onset=0.0)
     esper.create_entity(it)
     expected = 0.0
     for rate, seconds in ((5.0, 30), (80.0, 47), (0.0, 20), (300.0, 65), (0.0, 130), (1.0, 13)):

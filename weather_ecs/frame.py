@@ -6,8 +6,9 @@ OpenGL names in it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,10 @@ LIGHT_DTYPE = np.dtype(
         ("reach", "f8"),  # m, the distance at which it has faded to nothing
     ]
 )
+
+
+Spells = tuple[float, float, float, float]  # from, to, from, to, s ago
+NO_FRONTS: Mapping[int, Spells] = MappingProxyType({})
 
 
 def empty(dtype: np.dtype) -> NDArray:
@@ -265,6 +270,8 @@ class FrameData:
     clouds: NDArray = field(default_factory=lambda: empty(CLOUD_DTYPE))
     cloud_shapes: tuple[CloudShapeData, ...] = ()
     cloud_look: CloudLook = field(default_factory=CloudLook)
+    # Areas whose rain has begun or ended of late, by key: spells without, s; see `physics.front`.
+    fronts: Mapping[int, Spells] = field(default_factory=lambda: NO_FRONTS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -281,6 +288,7 @@ class ContainerData:
     count: float  # drops in use
     size_scale: float  # 1 near, more for far rain
     births: NDArray  # (n, 4) float32, n >= count: original position, own reach, size quantile
+    dry: Spells = (0.0, 0.0, 0.0, 0.0)  # fall times of the drops that are missing
 
 
 @dataclass(frozen=True, slots=True)
@@ -292,6 +300,8 @@ class VeilData:
     span: tuple[float, float]  # bottom, top, m
     extinction: float  # 1/m
     shown: float  # m, the distance at which the drops' share of it has fallen to 0
+    dry: Spells = (0.0, 0.0, 0.0, 0.0)  # fall times of the drops that are missing
+    slope: float = 2.0  # 1/mm, of the diameters
 
 
 @dataclass(frozen=True, slots=True)

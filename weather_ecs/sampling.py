@@ -56,7 +56,7 @@ class SampleField:
     def __init__(
         self, frame: FrameData, shelter: Shelter | None = None, ground: Ground | None = None
     ) -> None:
-        self._rain = RainField(frame.areas)
+        self._rain = RainField(frame.areas, frame.fronts)
         self._shelter, self._ground, self._time = shelter, ground, frame.time
         self._lights = [
             (*position, reach, luminance(color)) for position, color, reach in frame.lights.tolist()

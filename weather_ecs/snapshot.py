@@ -21,6 +21,7 @@ from weather_ecs.clock import Clock
 from weather_ecs.components import SNAPSHOT_COMPONENTS
 from weather_ecs.components._base import Component, set_unchecked
 from weather_ecs.errors import InvalidValueError, SnapshotError
+from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.wet_ground import WetGround
 
@@ -35,7 +36,7 @@ _NAMES = {
     name: tuple(sorted(field.name for field in fields(kind)))  # type: ignore[arg-type]
     for name, kind in SNAPSHOT_COMPONENTS.items()
 }
-_PARTS = {"clock", "entities", "next_uid", "rng", "seed", "wetness"}
+_PARTS = {"clock", "entities", "fronts", "next_uid", "rng", "seed", "wetness"}
 
 
 class Entity(NamedTuple):
@@ -51,6 +52,7 @@ class Loaded(NamedTuple):
     seed: int
     rng: np.random.Generator
     clock: Clock
+    fronts: RainFronts
     next_uid: int
     entities: list[Entity]
     wet_ground: WetGround
@@ -110,6 +112,7 @@ def capture(state: WeatherState) -> dict[str, Any]:
     return {
         "clock": state.clock.state(),
         "entities": [[uid, entities[uid]] for uid in sorted(entities)],
+        "fronts": state.fronts.state(),
         "next_uid": state.uids.next,
         "rng": state.rng.bit_generator.state,
         "seed": state.seed,
@@ -146,6 +149,7 @@ def _load(document: dict[str, Any]) -> Loaded:
         seed=_integer("seed", document["seed"], 2**63 - 1),
         rng=_generator(document["rng"]),
         clock=Clock.from_state(document["clock"]),
+        fronts=RainFronts.from_state(document["fronts"]),
         next_uid=next_uid,
         entities=entities,
         wet_ground=WetGround.from_state(document["wetness"]),
@@ -186,6 +190,7 @@ def apply(state: WeatherState, loaded: Loaded) -> None:
     state.seed = loaded.seed
     state.rng = loaded.rng
     state.clock = loaded.clock
+    state.fronts = loaded.fronts
     state.wet_ground = loaded.wet_ground
     state.uids.assign(assigned, loaded.next_uid)
 

@@ -8,6 +8,7 @@ import moderngl
 import numpy as np
 
 from weather_ecs.frame import ViewData
+from weather_ecs.physics.front import on_level_ground
 from weather_ecs.physics.wet_field import open_water
 
 TEXELS, TEXEL = 64, 8.0  # a side; m
@@ -52,7 +53,8 @@ class FarField:
             for tiles in wet.levels
         ]
         rest = max(view.frame.time - wet.ticks, 0.0)
-        water = open_water(points, levels, rest, view.frame.areas)
+        areas = on_level_ground(view.frame.areas, view.frame.fronts)
+        water = open_water(points, levels, rest, areas)
         self.texture.write(water.astype(np.float32).tobytes())
         self._made = (wet.number, wet.ticks)
         self.dry = not water.any()

@@ -6,20 +6,30 @@ The formula is `physics.ellipse.edge_factor` times the area's rate, summed over 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .front import SETTLED, Dry, water_arrived
+
+NO_FRONTS: Mapping[int, Dry] = MappingProxyType({})
+
 
 class RainField:
-    """Rain areas (rows of `frame.AREA_DTYPE`), prepared to answer for any point."""
+    """Rain areas (rows of `frame.AREA_DTYPE`), prepared to answer for any point.
 
-    __slots__ = ("_areas", "_keys")
+    `fronts`: by the area's key the spells of `physics.front`, where rain begins or ends.
+    """
 
-    def __init__(self, areas: NDArray) -> None:
+    __slots__ = ("_areas", "_fronts", "_keys")
+
+    def __init__(self, areas: NDArray, fronts: Mapping[int, Dry] = NO_FRONTS) -> None:
         rows = plain_rows(areas[areas["rain_rate"] > 0.0])
+        # Of what has not all come down: the spells and the whole rate.
+        self._fronts = [(fronts.get(row[0], SETTLED), row[4]) for row in rows] if fronts else []
         self._keys = [row[0] for row in rows]
         self._areas = [
             (*center, math.cos(heading), math.sin(heading), *radii, rate, min(edge, radii[1]), top)
@@ -32,13 +42,22 @@ class RainField:
     def rate(self, x: float, y: float, z: float) -> float:
         """mm/h at a point in the open: the areas' rates, each falling off over its soft edge."""
         total = 0.0
-        for rate in self._rates(x, y, z):
+        for rate in self._arrived(x, y, z) if self._fronts else self._rates(x, y, z):
             total += rate
         return total
 
     def rates(self, x: float, y: float, z: float) -> dict[int, float]:
         """The same by area: mm/h under the area's key."""
-        return dict(zip(self._keys, self._rates(x, y, z), strict=True))
+        rates = self._arrived(x, y, z) if self._fronts else self._rates(x, y, z)
+        return dict(zip(self._keys, rates, strict=True))
+
+    def _arrived(self, x: float, y: float, z: float) -> Iterator[float]:
+        """The areas' rates, less what has not come down yet or is all down already."""
+        each = zip(self._rates(x, y, z), self._fronts, self._areas, strict=True)
+        for rate, (dry, full), (*_, top) in each:
+            if rate > 0.0 and dry != SETTLED:
+                rate *= float(water_arrived(top - y, dry, full))
+            yield rate
 
     def _rates(self, x: float, y: float, z: float) -> Iterator[float]:
         hypot = math.hypot

@@ -37,7 +37,7 @@ from weather_ecs.frame import (
 from weather_ecs.systems.gauge import GaugeList
 from weather_ecs.systems.occluders import OccluderList
 from weather_ecs.systems.queries import alive
-from weather_ecs.systems.rain_area import area_rows, drift_velocity
+from weather_ecs.systems.rain_area import area_rows, drift_velocity, dry_spells
 from weather_ecs.systems.ripples import RippleList
 from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.wind import total_wind
@@ -72,6 +72,8 @@ class ExtractSystem:
         self._revisions: tuple[int, ...] = ()
         self._entities: list[int] = []
         self._still: NDArray = _NO_AREAS  # the areas where the last fixed step left them
+        self._changing: list[tuple[int, RainArea]] = []  # areas whose rain begins or ends
+        self._fronts_seen = (0, 0)
         self._velocity: NDArray | None = None  # (n, 2), m/s; None where all stand still
         self._parts: tuple[NDArray, tuple[float, float, float], SkyLight, DropLook]
         self._splash: SplashLook | None = None
@@ -104,6 +106,7 @@ class ExtractSystem:
             or revisions != self._revisions
             or not all(map(is_, lists, self._lists))
             or not all(map(esper.entity_exists, self._entities))
+            or (state.fronts.number, state.fronts.revision) != self._fronts_seen
         ):
             self._rebuild(state)
             self._lists, self._revisions = lists, revisions
@@ -132,13 +135,18 @@ class ExtractSystem:
             areas.setflags(write=False)
         shapes = (occluders, self._splash, self._ripples.surfaces)
         rest = (state.wet_ground.data(), self._heightmap, gauges)
-        return FrameData(clock.time, clock.steps, areas, *self._parts, *shapes, *rest)
+        fronts = dry_spells(self._changing, state.fronts, clock.remainder)
+        return FrameData(
+            clock.time, clock.steps, areas, *self._parts, *shapes, *rest, fronts=fronts
+        )
 
     def _rebuild(self, state: WeatherState) -> None:
         wind = total_wind(state)
+        self._fronts_seen = (state.fronts.number, state.fronts.revision)
         found = alive(RainArea, state.uids)
+        self._changing = [pair for pair in found if state.fronts.of(*pair) is not None]
         velocities = [drift_velocity(area, wind) for _, area in found]
-        self._still = area_rows(found) if found else _NO_AREAS
+        self._still = area_rows(found, state.fronts) if found else _NO_AREAS
         self._velocity = np.array(velocities) if any(map(any, velocities)) else None
         lamps = [
             (lamp.position, lamp.color, lamp.reach) for _, lamp in alive(PointLight, state.uids)

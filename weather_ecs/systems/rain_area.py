@@ -9,7 +9,9 @@ from weather_ecs.clock import STEP
 from weather_ecs.components import RainArea
 from weather_ecs.components._base import FAR, set_unchecked
 from weather_ecs.frame import AREA_DTYPE
+from weather_ecs.physics.front import SETTLED, Dry
 from weather_ecs.systems.queries import alive
+from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.state import WeatherState
 
 
@@ -20,15 +22,15 @@ def drift_velocity(area: RainArea, wind: tuple[float, float, float]) -> tuple[fl
     return x + drift * wind[0], z + drift * wind[2]
 
 
-def area_rows(found: list[tuple[int, RainArea]]) -> NDArray:
-    """Areas by uid as read-only rows of AREA_DTYPE."""
+def area_rows(found: list[tuple[int, RainArea]], fronts: RainFronts) -> NDArray:
+    """Areas by uid as read-only rows of AREA_DTYPE, with the rain that is in the air."""
     rows = [
         (
             uid,
             area.center,
             area.radii,
             area.heading,
-            area.rain_rate,
+            fronts.rate(uid, area),
             min(area.soft_edge, area.radii[1]),
             area.ceiling,
         )
@@ -39,12 +41,22 @@ def area_rows(found: list[tuple[int, RainArea]]) -> NDArray:
     return array
 
 
+def dry_spells(
+    found: list[tuple[int, RainArea]], fronts: RainFronts, remainder: float
+) -> dict[int, Dry]:
+    """By uid what `physics.front` has to know of the areas whose rain has begun or ended of late."""
+    spells = {uid: fronts.dry(uid, area, remainder) for uid, area in found}
+    return {uid: dry for uid, dry in spells.items() if dry != SETTLED}
+
+
 class RainAreaSystem:
-    """Carries every rain area by its velocity and its share of the wind."""
+    """Carries every rain area by its velocity and its share of the wind, and watches its rain."""
 
     def run(self, state: WeatherState) -> None:
         """Move the areas by one fixed step; at the end of the world they stop."""
-        for _, area in alive(RainArea, state.uids):
+        found = alive(RainArea, state.uids)
+        state.fronts.step(found)
+        for _, area in found:
             vx, vz = drift_velocity(area, state.wind)
             if vx or vz:
                 x, z = area.center

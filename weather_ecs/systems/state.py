@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from weather_ecs.clock import Clock
+from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.uids import Uids
 from weather_ecs.systems.wet_ground import WetGround
 
@@ -12,12 +13,13 @@ from weather_ecs.systems.wet_ground import WetGround
 class WeatherState:
     """One weather's state beyond its components. All of it goes into a snapshot."""
 
-    __slots__ = ("clock", "rng", "seed", "uids", "wet_ground", "wind")
+    __slots__ = ("clock", "fronts", "rng", "seed", "uids", "wet_ground", "wind")
 
     def __init__(self, seed: int) -> None:
         self.seed = seed
         self.rng = np.random.Generator(np.random.PCG64(seed))  # the only source of chance
         self.clock = Clock()
         self.uids = Uids()
+        self.fronts = RainFronts()
         self.wet_ground = WetGround()
         self.wind = (0.0, 0.0, 0.0)  # m/s, world axes; summed by WindSystem
