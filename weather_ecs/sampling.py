@@ -28,8 +28,8 @@ class Sample(NamedTuple):
     rain_rate: float  # mm/h
     snow_rate: float  # mm/h of water
     sheltered: bool  # something overhead keeps the rain off
-    wind: tuple[float, float, float]  # m/s, world axes
-    visibility: float  # m
+    wind: tuple[float, float, float]  # m/s, world axes; gusts are in it, turbulence is not
+    visibility: float  # m, through fog, rain and snow as they are there
     wetness: float  # mm of water on level ground there; under shelter 0
     snow_depth: float  # m
     temperature: float  # degrees Celsius
@@ -101,7 +101,7 @@ class SampleField:
             0.0 if sheltered else rate,
             0.0,
             sheltered,
-            self._wind,
+            wind_at(self._wind, self._profile, y),
             CONTRAST / lost,
             wetness,
             0.0,

@@ -17,7 +17,7 @@ from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, Wea
 from weather_ecs.frame import FrameData
 from weather_ecs.observer_keys import ObserverKeys
 from weather_ecs.physics.camera import Camera, camera_from
-from weather_ecs.physics.footprint import fall_slope, fall_speed_over
+from weather_ecs.physics.footprint import fall_slope, fall_speed_over, landing_wind
 from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, settings_for
 from weather_ecs.sampling import Sample, SampleField
 from weather_ecs.stats import Stats
@@ -318,7 +318,8 @@ class Weather:
         self._check_open()
         frame = self._frame()
         if self._field is None or frame is not self._field_frame:
-            slope = fall_slope(frame.wind, fall_speed_over(frame.areas["rain_rate"]))
+            wind = landing_wind(frame.wind, frame.profile)
+            slope = fall_slope(wind, fall_speed_over(frame.areas["rain_rate"]))
             self._shelter.update(frame.occluders, slope, frame.time)
             self._field = SampleField(frame, self._shelter, self._state.wet_ground)
             self._field_frame = frame

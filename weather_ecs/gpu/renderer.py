@@ -28,7 +28,7 @@ from weather_ecs.gpu.veil_pass import VeilPass
 from weather_ecs.gpu.view_block import fill_view
 from weather_ecs.gpu.wetness_map import WetnessMap
 from weather_ecs.gpu.wetness_pass import WetnessPass
-from weather_ecs.physics.footprint import fall_speed_over
+from weather_ecs.physics.footprint import fall_speed_over, landing_wind
 
 
 class Settings(Protocol):
@@ -189,7 +189,7 @@ class Renderer:
                 heightmap.release()
             heightmap = Heightmap(self._ctx, self._guard, self._meshes, size)
             self._maps[view.key] = heightmap
-        wind, reach = view.frame.wind, view.frame.look.reach
+        wind, reach = landing_wind(view.frame.wind, view.frame.profile), view.frame.look.reach
         speed = fall_speed_over(view.frame.areas["rain_rate"])
         if heightmap.footprint is not None and not view.frame.areas["rain_rate"].any():
             # Nothing falls: the map stays as it was, for what is still wet.

@@ -12,9 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .wind import Profile, wind_at
+
 # The wind is rounded to this slope, so that its small changes do not call for a new capture.
 _SLOPE_STEP = 0.02
 _STEEPEST = 4.0
+# m: a drop takes on the air's motion over speed^2/g, about 3 m for one of 1.5 mm, and so lands with
+# the motion of the air that it has come through.
+LANDING = 4.0
 _ABOVE, _BELOW = 120.0, 80.0  # m of height that the map can tell apart, about the observer
 
 
@@ -70,6 +75,13 @@ def footprint(
     snapped = (round(center[0] / texel) * texel, round(center[1] / texel) * texel)
     middle = round(y / 10.0) * 10.0
     return Footprint(snapped, half, slope, middle - _BELOW, middle + _ABOVE)
+
+
+def landing_wind(
+    wind: tuple[float, float, float], profile: Profile
+) -> tuple[float, float, float]:
+    """The wind that slants the rain where it lands, m/s: that of LANDING m above the ground."""
+    return wind_at(wind, profile, profile.ground + LANDING)
 
 
 def fall_slope(wind: tuple[float, float, float], fall_speed: float) -> tuple[float, float]:

@@ -24,6 +24,7 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -109,6 +110,27 @@ def height_share(height: float, reference: float, exponent: float) -> float:
     if exponent == 0.0:
         return 1.0
     return float((min(max(height, LOWEST), HIGHEST) / reference) ** exponent)
+
+
+class Profile(Protocol):
+    """How a wind grows with height; see `frame.WindProfile`."""
+
+    @property
+    def reference(self) -> float: ...
+    @property
+    def exponent(self) -> float: ...
+    @property
+    def ground(self) -> float: ...
+
+
+def wind_at(
+    wind: tuple[float, float, float], profile: Profile, y: float
+) -> tuple[float, float, float]:
+    """The mean wind at a world height y, m/s; `wind` is that at the reference height."""
+    if profile.exponent == 0.0:
+        return wind
+    share = height_share(y - profile.ground, profile.reference, profile.exponent)
+    return wind[0] * share, wind[1] * share, wind[2] * share
 
 
 def _times(t: ArrayLike, **joints: float) -> tuple[FloatArray, list[FloatArray]]:

@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.components import (
+    Air,
     CollisionHeightmap,
+    Fog,
     PointLight,
     RainArea,
     RainContainer,
@@ -25,7 +27,9 @@ from weather_ecs.components.collision_heightmap import ALL_LAYERS
 from weather_ecs.frame import (
     AREA_DTYPE,
     LIGHT_DTYPE,
+    AirData,
     DropLook,
+    FogData,
     FrameData,
     GaugeData,
     HeightmapLook,
@@ -34,13 +38,14 @@ from weather_ecs.frame import (
     SplashLook,
     empty,
 )
+from weather_ecs.systems.air import air_data, fog_data
 from weather_ecs.systems.gauge import GaugeList
 from weather_ecs.systems.occluders import OccluderList
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.rain_area import area_rows, drift_velocity, dry_spells
 from weather_ecs.systems.ripples import RippleList
 from weather_ecs.systems.state import WeatherState
-from weather_ecs.systems.wind import total_wind
+from weather_ecs.systems.wind import CALM, varies, winds_at
 
 _KINDS = (
     RainArea,
@@ -51,6 +56,8 @@ _KINDS = (
     SplashEmitter,
     RippleSurface,
     CollisionHeightmap,
+    Air,
+    Fog,
 )
 _LOOK = tuple(item.name for item in fields(DropLook))
 _SPLASH = tuple(item.name for item in fields(SplashLook))
@@ -75,7 +82,11 @@ class ExtractSystem:
         self._changing: list[tuple[int, RainArea]] = []  # areas whose rain begins or ends
         self._fronts_seen = (0, 0)
         self._velocity: NDArray | None = None  # (n, 2), m/s; None where all stand still
-        self._parts: tuple[NDArray, tuple[float, float, float], SkyLight, DropLook]
+        self._drifting: list[RainArea] = []  # all areas, where the wind that carries them varies
+        self._winds: list[tuple[int, Wind]] = []  # where any of them varies
+        self._wind, self._profile = (0.0, 0.0, 0.0), CALM
+        self._parts: tuple[NDArray, SkyLight, DropLook]
+        self._air, self._fog = AirData(), FogData()
         self._splash: SplashLook | None = None
         self._occluders = OccluderList()
         self._ripples = RippleList()
@@ -129,30 +140,59 @@ class ExtractSystem:
     ) -> FrameData:
         """The parts at the clock's time: moving areas are carried on by the remainder."""
         areas, clock = self._still, state.clock
+        if self._winds:
+            self._blow(state)
         if self._velocity is not None and clock.remainder > 0.0:
             areas = areas.copy()
             areas["center"] += self._velocity * clock.remainder
             areas.setflags(write=False)
-        shapes = (occluders, self._splash, self._ripples.surfaces)
-        rest = (state.wet_ground.data(), self._heightmap, gauges)
-        fronts = dry_spells(self._changing, state.fronts, clock.remainder)
+        lights, sky, look = self._parts
         return FrameData(
-            clock.time, clock.steps, areas, *self._parts, *shapes, *rest, fronts=fronts
+            time=clock.time,
+            step=clock.steps,
+            areas=areas,
+            lights=lights,
+            wind=self._wind,
+            sky=sky,
+            look=look,
+            occluders=occluders,
+            splash=self._splash,
+            ripples=self._ripples.surfaces,
+            wetness=state.wet_ground.data(),
+            heightmap=self._heightmap,
+            gauges=gauges,
+            air=self._air,
+            fog=self._fog,
+            profile=self._profile,
+            fronts=dry_spells(self._changing, state.fronts, clock.remainder),
         )
 
+    def _blow(self, state: WeatherState) -> None:
+        """The wind at the clock's time; what it carries moves as it will in the next step."""
+        winds, seed = self._winds, state.seed
+        self._wind, self._profile = winds_at(winds, seed, state.clock.time)
+        if self._drifting:
+            motion = winds_at(winds, seed, state.next_time)
+            self._velocity = np.array([drift_velocity(area, *motion) for area in self._drifting])
+
     def _rebuild(self, state: WeatherState) -> None:
-        wind = total_wind(state)
+        winds = alive(Wind, state.uids)
+        self._wind, self._profile = winds_at(winds, state.seed, state.clock.time)
         self._fronts_seen = (state.fronts.number, state.fronts.revision)
         found = alive(RainArea, state.uids)
         self._changing = [pair for pair in found if state.fronts.of(*pair) is not None]
-        velocities = [drift_velocity(area, wind) for _, area in found]
+        motion = winds_at(winds, state.seed, state.next_time)
+        velocities = [drift_velocity(area, *motion) for _, area in found]
         self._still = area_rows(found, state.fronts) if found else _NO_AREAS
         self._velocity = np.array(velocities) if any(map(any, velocities)) else None
+        self._winds = winds if varies(winds) else []
+        self._drifting = [area for _, area in found] if any(a.drift for _, a in found) else []
         lamps = [
             (lamp.position, lamp.color, lamp.reach) for _, lamp in alive(PointLight, state.uids)
         ]
         lights = _frozen(lamps, LIGHT_DTYPE) if lamps else _NO_LIGHTS
-        self._parts = (lights, wind, _sky(state), _look(state))
+        self._parts = (lights, _sky(state), _look(state))
+        self._air, self._fog = air_data(state), fog_data(state, self._parts[1])
         self._splash = _splash(state)
         self._ripples.collect(state)
         self._heightmap, self._layers = _heightmap(state)

@@ -37,7 +37,9 @@ class WeatherProcessor(esper.Processor):
         state = self.state
         due = state.clock.advance(dt)
         state.uids.commit()
-        for _ in range(due):
+        first = state.clock.steps - due + 1
+        for k in range(due):
+            state.step = first + k
             for system in self._step:
                 system.run(state)
         for system in self._frame:

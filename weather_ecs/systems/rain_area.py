@@ -8,17 +8,23 @@ from numpy.typing import NDArray
 from weather_ecs.clock import STEP
 from weather_ecs.components import RainArea
 from weather_ecs.components._base import FAR, set_unchecked
-from weather_ecs.frame import AREA_DTYPE
+from weather_ecs.frame import AREA_DTYPE, WindProfile
 from weather_ecs.physics.front import SETTLED, Dry
+from weather_ecs.physics.wind import height_share
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.state import WeatherState
 
 
-def drift_velocity(area: RainArea, wind: tuple[float, float, float]) -> tuple[float, float]:
-    """Velocity of an area over the ground, (x, z), m/s: its own and the wind's share."""
+def drift_velocity(
+    area: RainArea, wind: tuple[float, float, float], profile: WindProfile
+) -> tuple[float, float]:
+    """Velocity of an area over the ground, (x, z), m/s: its own and its share of the wind at its
+    ceiling, where its cloud is."""
     x, z = area.velocity
     drift = area.drift
+    if drift > 0.0:
+        drift *= height_share(area.ceiling - profile.ground, profile.reference, profile.exponent)
     return x + drift * wind[0], z + drift * wind[2]
 
 
@@ -57,7 +63,7 @@ class RainAreaSystem:
         found = alive(RainArea, state.uids)
         state.fronts.step(found)
         for _, area in found:
-            vx, vz = drift_velocity(area, state.wind)
+            vx, vz = drift_velocity(area, state.wind, state.profile)
             if vx or vz:
                 x, z = area.center
                 x = min(max(x + vx * STEP, -FAR), FAR)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from weather_ecs.clock import Clock
+from weather_ecs.clock import STEP, Clock
+from weather_ecs.frame import WindProfile
 from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.uids import Uids
 from weather_ecs.systems.wet_ground import WetGround
@@ -13,7 +14,7 @@ from weather_ecs.systems.wet_ground import WetGround
 class WeatherState:
     """One weather's state beyond its components. All of it goes into a snapshot."""
 
-    __slots__ = ("clock", "fronts", "rng", "seed", "uids", "wet_ground", "wind")
+    __slots__ = ("clock", "fronts", "profile", "rng", "seed", "step", "uids", "wet_ground", "wind")
 
     def __init__(self, seed: int) -> None:
         self.seed = seed
@@ -22,4 +23,11 @@ class WeatherState:
         self.uids = Uids()
         self.fronts = RainFronts()
         self.wet_ground = WetGround()
-        self.wind = (0.0, 0.0, 0.0)  # m/s, world axes; summed by WindSystem
+        self.step = 0  # the fixed step that the systems are at
+        self.wind = (0.0, 0.0, 0.0)  # m/s, world axes, at the reference height; of WindSystem
+        self.profile = WindProfile()  # how that varies with height
+
+    @property
+    def next_time(self) -> float:
+        """The weather's clock at the end of the next fixed step, s."""
+        return (self.clock.steps + 1) * STEP
