@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from weather_ecs.components._agreeing import Agreeing
 from weather_ecs.components._base import Check, integer, number
 from weather_ecs.errors import InvalidValueError
@@ -44,9 +46,8 @@ class CloudRoot(Agreeing):
 
     def descendants(self) -> int:
         """The most seeds that this root can add."""
-        if self.reproductions_max <= 1:  # one level has the seeds of the first
-            return self.reproductions_max * self.seeds_start
-        return (self.reproductions_max * (self.seeds_start + self.seeds_end) + 1) // 2
+        levels = np.linspace(self.seeds_start, self.seeds_end, self.reproductions_max)
+        return int(np.rint(levels).astype(np.int64).sum())
 
     def agree(self) -> None:
         if self.reproductions_min > self.reproductions_max:

@@ -1,0 +1,155 @@
+"""Reproduction: from the seeds and roots of a model to the boxes and billboards of one cloud.
+
+After R. P. Torchelsen, "Modelo para simulação em tempo-real de nuvens usando billboards" (UNISINOS,
+2005), section 3.1. A model is anything with the fields of `components.CloudModel`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from weather_ecs.errors import InvalidValueError
+from weather_ecs.physics.checks import FloatArray, floats
+from weather_ecs.physics.cloud_images import CLOUD_IMAGES
+
+MOST_SEEDS = 1_000_000
+MOST_BILLBOARDS = 10_000_000
+
+# The same fields as frame.BILLBOARD_DTYPE, which says what they are.
+BILLBOARDS = np.dtype(
+    [
+        ("position", "f4", 3),
+        ("size", "f4", 2),
+        ("turn", "f4"),
+        ("image", "i4"),
+        ("seed", "i4"),
+        ("order", "f4"),
+        ("opacity", "f4"),
+    ]
+)
+
+
+def reproduce(model: Any, rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
+    """Centres and whole sides of the boxes of one cloud, (n, 3) both, m, in the model's axes.
+
+    Every seed of the model is followed by what its roots add. At level k = 1, 2, ... a root adds
+    boxes of the seed's size at the seed's centre + direction x radius x k: the radius is that of
+    the sphere through the box's corners, the direction the root's, turned at random by up to half
+    of its openings. The number of levels is drawn between the root's minimum and maximum.
+    """
+    centers: list[FloatArray] = []
+    sizes: list[FloatArray] = []
+    total = 0
+    for seed in model.seeds:
+        center = floats("center", seed.center)
+        size = floats("size", (seed.width, seed.height, seed.depth), 0.0)
+        if not size.all():
+            raise InvalidValueError("size", size.tolist(), "three numbers above 0, metres")
+        added = [center[None, :]]
+        for root in seed.roots:
+            steps = _steps(root, rng)
+            total += len(steps)
+            if total > MOST_SEEDS:
+                raise InvalidValueError("seeds", f"{total} or more", f"at most {MOST_SEEDS}")
+            radius = 0.5 * float(np.linalg.norm(size))
+            added.append(center + _directions(root, len(steps), rng) * (radius * steps)[:, None])
+        here = np.concatenate(added)
+        centers.append(here)
+        sizes.append(np.broadcast_to(size, here.shape))
+    if not centers:
+        raise InvalidValueError("seeds", model.seeds, "at least one seed")
+    return np.concatenate(centers), np.concatenate(sizes)
+
+
+def level_counts(start: int, end: int, levels: int) -> NDArray[np.int64]:
+    """New seeds of each level, (levels,): `start` at the first to `end` at the last, linearly."""
+    return np.rint(np.linspace(start, end, levels)).astype(np.int64)
+
+
+def image_indices(names: Sequence[str]) -> list[int]:
+    """Layers of the images of these names; a family's name ("puff") is all of its images."""
+    found: list[int] = []
+    for name in names:
+        layers = [
+            layer
+            for layer, image in enumerate(CLOUD_IMAGES)
+            if name in (image, image.rpartition("_")[0])
+        ]
+        if not layers:
+            families = sorted({image.rpartition("_")[0] for image in CLOUD_IMAGES})
+            allowed = f"{', '.join(families)}, or one image of them as {CLOUD_IMAGES[0]}"
+            raise InvalidValueError("images", name, allowed)
+        found.extend(layers)
+    return found
+
+
+def billboards(
+    model: Any, centers: ArrayLike, sizes: ArrayLike, rng: np.random.Generator
+) -> NDArray:
+    """Billboards of a cloud in its boxes, an array of BILLBOARDS; positions in the boxes' axes.
+
+    `roundness` draws them from the whole box towards the ellipsoid in it. `flatness` lifts those
+    that would hang below the lowest box until they stand on its bottom. `order` is 0 for the one
+    nearest to the cloud's middle and rises evenly to 1 at the rim.
+    """
+    boxes, sides = floats("centers", centers), floats("sizes", sizes, 0.0)
+    if len(boxes) * model.billboards_max > MOST_BILLBOARDS:
+        count = len(boxes) * model.billboards_max
+        raise InvalidValueError("billboards_max", f"{count} in all", f"at most {MOST_BILLBOARDS}")
+    counts = rng.integers(model.billboards_min, model.billboards_max + 1, len(boxes))
+    seed = np.repeat(np.arange(len(boxes)), counts)
+    n = len(seed)
+    place = rng.uniform(-1.0, 1.0, (n, 3))
+    reach = np.linalg.norm(place, axis=1)
+    to_ball = np.abs(place).max(axis=1, initial=0.0) / np.where(reach > 0.0, reach, 1.0)
+    place *= (1.0 + model.roundness * (to_ball - 1.0))[:, None]
+    position = boxes[seed] + 0.5 * sides[seed] * place
+    width = rng.uniform(model.size_min, model.size_max, n)
+    height = width * model.aspect
+    low = float((boxes[:, 1] - 0.5 * sides[:, 1]).min())
+    lift = np.maximum(0.0, low + 0.5 * height - position[:, 1])
+    position[:, 1] += model.flatness * lift
+
+    result = np.zeros(n, BILLBOARDS)
+    result["position"] = position
+    result["size"] = np.stack((width, height), axis=1)
+    result["turn"] = np.radians(rng.uniform(-model.turn, model.turn, n))
+    result["image"] = rng.choice(image_indices(model.images), n)
+    result["seed"] = seed
+    result["order"] = _order(position)
+    result["opacity"] = model.opacity
+    return result
+
+
+def _steps(root: Any, rng: np.random.Generator) -> NDArray[np.int64]:
+    """The level of every seed that the root adds in one cloud."""
+    levels = int(rng.integers(root.reproductions_min, root.reproductions_max + 1))
+    counts = level_counts(root.seeds_start, root.seeds_end, levels)
+    if float(counts.sum(dtype=np.float64)) > MOST_SEEDS:
+        raise InvalidValueError("descendants", int(counts.sum()), f"at most {MOST_SEEDS}")
+    return np.repeat(np.arange(1, levels + 1), counts)
+
+
+def _directions(root: Any, n: int, rng: np.random.Generator) -> FloatArray:
+    """Unit vectors within the root's openings, (n, 3)."""
+    turns = rng.uniform(-0.5, 0.5, (n, 2))
+    pitch = np.radians(root.pitch + root.open_pitch * turns[:, 0])
+    yaw = np.radians(root.yaw + root.open_yaw * turns[:, 1])
+    level = np.cos(pitch)
+    return np.stack((level * np.cos(yaw), np.sin(pitch), -level * np.sin(yaw)), axis=1)
+
+
+def _order(position: FloatArray) -> FloatArray:
+    n = len(position)
+    if n < 2:
+        return np.zeros(n)
+    low, high = position.min(axis=0), position.max(axis=0)
+    half = np.where(high > low, 0.5 * (high - low), 1.0)
+    distance = np.linalg.norm((position - 0.5 * (low + high)) / half, axis=1)
+    order = np.empty(n)
+    order[np.argsort(distance, kind="stable")] = np.linspace(0.0, 1.0, n)
+    return order
