@@ -19,7 +19,8 @@ def state(initial: float, final: float, duration: float, t: float) -> float:
     end = number("final", final, 0.0, 1.0)
     whole = number("duration", duration, 0.0, above=True)
     done = min(max(number("t", t) / whole, 0.0), 1.0)
-    return start * (1.0 - done) + end * done  # exact at both ends, and never beyond them
+    now = start * (1.0 - done) + end * done  # exact at both ends
+    return min(max(now, min(start, end)), max(start, end))  # rounding may lead beyond them
 
 
 def shares(states: ArrayLike, state: float) -> FloatArray:
