@@ -336,7 +336,14 @@ def test_a_state_comes_back():
 
 
 AREA = [0, [0, 0], [1, 1], 0, 5.0, 1, 400]
-LEVEL = {"level": 0, "places": [[0, 0]], "codes": "00" * 128, "rows": [AREA], "since": 0}
+LEVEL = {
+    "level": 0,
+    "places": [[0, 0]],
+    "codes": "00" * 128,
+    "melt": 0.0,
+    "rows": [AREA],
+    "since": 0,
+}
 
 
 def test_the_level_that_the_bad_ones_are_made_of_is_good():
@@ -348,6 +355,8 @@ BAD = [
     ("steps", STEPS),
     ("steps", -1),
     ("ticks", 1.5),
+    ("melt", -1.0),
+    ("melt", 0),
     ("levels", {}),
     ("levels", [1]),
     ("levels", [LEVEL] * 2),
@@ -356,6 +365,8 @@ BAD = [
         ("levels", [{**LEVEL, name: value}])
         for name, value in (
             ("since", 10**9),
+            ("melt", 2.0),
+            ("melt", "fast"),
             ("rows", None),
             ("rows", [AREA[:6]]),
             ("rows", [[0, [0, 0], [1, 1], 0, 0.0, 1, 400]]),

@@ -34,6 +34,7 @@ LIGHT_DTYPE = np.dtype(
 )
 
 
+RAIN, SNOW = 0, 1  # kinds of containers
 Spells = tuple[float, float, float, float]  # from, to, from, to, s ago
 NO_FRONTS: Mapping[int, Spells] = MappingProxyType({})
 
@@ -70,6 +71,21 @@ class DropLook:
     opacity: float = 0.6  # greatest opacity of one streak
     veil: float = 2.5  # factor on the veil's extinction, look only
     fastest: float = 8.0  # m/s, of the observer's own speed that slants the streaks at most
+
+
+@dataclass(frozen=True, slots=True)
+class SnowLook:
+    """Looks of falling snow; see `components.SnowFlakes`."""
+
+    model: str = "physical"  # or "liu_tong"
+    size: float = 2.5  # factor on the flake's diameter, look only
+    size_maximum: float = 5.0  # Eq. 3's factor at the container's rim
+    flutter: float = 1.0  # factor on how far flakes sway
+    density: float = 2.0  # factor on how much the flakes cover: 1 is what nature shows
+    brightness: float = 1.0  # factor on the light of sky and ground that flakes show
+    opacity: float = 0.9  # greatest opacity of one flake
+    aperture: float = 0.004  # m, of the eye or lens that sees near flakes out of focus
+    veil: float = 1.0  # factor on the veil's extinction, look only
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,6 +162,7 @@ class WetTileData:
     water: NDArray  # (n, 8, 8) float32, mm; rows along z
     since: int  # the tick it is of
     rows: NDArray  # AREA_DTYPE, the areas whose rain has been falling since then
+    melt: float = 0.0  # mm/s that have melted since then, of snow
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -163,7 +180,7 @@ class AirData:
 
     temperature: float = 15.0  # degrees Celsius
     humidity: float = 0.8  # 0 to 1, relative
-    wet_bulb: float = 13.0  # degrees Celsius
+    wet_bulb: float = 12.73  # degrees Celsius
     snow_share: float = 0.0  # of the water that falls, 0 rain to 1 snow; between: sleet
 
 
@@ -172,7 +189,7 @@ class FogData:
     """What the air takes from the view; see `components.Fog`."""
 
     extinction: float = 3.912 / 50_000.0  # 1/m, of the air and its fog; rain and snow are more
-    color: tuple[float, float, float] = (0.68, 0.73, 0.78)  # linear RGB
+    color: tuple[float, float, float] = (0.64, 0.70, 0.77)  # linear RGB
     depth: float = 250.0  # m of it above the eye, before the sky
     draw: bool = False  # over the whole picture, for games whose shaders know no fog
 
@@ -272,23 +289,38 @@ class FrameData:
     cloud_look: CloudLook = field(default_factory=CloudLook)
     # Areas whose rain has begun or ended of late, by key: spells without, s; see `physics.front`.
     fronts: Mapping[int, Spells] = field(default_factory=lambda: NO_FRONTS)
+    snow: SnowLook = field(default_factory=SnowLook)
 
 
 @dataclass(frozen=True, slots=True)
 class ContainerData:
-    """A placed container and the drops it holds; see `physics.container` and `shaders/`."""
+    """A placed container and the drops or flakes it holds; see `physics.container`, `shaders/`."""
 
     key: int  # stable for an area as one observer sees it; only ever compared
     axis: tuple[float, float, float, float]  # centre x, centre z, cos heading, sin heading
     shape: tuple[float, float, float, float]  # forward, lateral reach, bottom, height, m
     area_axis: tuple[float, float, float, float]
     area_shape: tuple[float, float, float, float]  # a, b, soft edge, ceiling, m
-    law: tuple[float, float, float, float]  # of the diameters: slope, 1 - exp(-5.5 slope), 0, 0
+    # Of the diameters: slope, 1 - exp(-5.5 slope), 0, 0; of flakes as in `physics.snow.SnowLaw`.
+    law: tuple[float, float, float, float]
     load: float  # real drops that one drop stands for, over d / weight_shape(d)
     count: float  # drops in use
     size_scale: float  # 1 near, more for far rain
     births: NDArray  # (n, 4) float32, n >= count: original position, own reach, size quantile
     dry: Spells = (0.0, 0.0, 0.0, 0.0)  # fall times of the drops that are missing
+    kind: int = 0  # RAIN or SNOW
+    rate: float = 0.0  # mm/h of water, of this kind where the area's is full
+    cover: float = 1.0  # share of its disc that a drop or flake hides
+
+    @property
+    def area(self) -> int:
+        """Key of the area."""
+        return self.key >> 2
+
+    @property
+    def word(self) -> int:
+        """What its chances are made of: each kind and half has its own."""
+        return 2 * self.area + (self.key & 1) + 0x51F15E * self.kind
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,6 +334,7 @@ class VeilData:
     shown: float  # m, the distance at which the drops' share of it has fallen to 0
     dry: Spells = (0.0, 0.0, 0.0, 0.0)  # fall times of the drops that are missing
     slope: float = 2.0  # 1/mm, of the diameters
+    snow: float = 0.0  # share of the extinction that is snow's
 
 
 @dataclass(frozen=True, slots=True)

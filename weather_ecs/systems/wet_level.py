@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,9 @@ from numpy.typing import NDArray
 from weather_ecs.components import RainArea
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.frame import AREA_DTYPE, WetTileData, empty
+from weather_ecs.physics.ground_law import WATER, GroundLaw
 from weather_ecs.physics.rain_field import RainField, plain_rows
-from weather_ecs.physics.wetness import FILM, MM_PER_S, settle_one
+from weather_ecs.physics.wetness import MM_PER_S
 from weather_ecs.systems.wet_tiles import WetTiles
 
 TICK = 1.0  # s of weather between two looks at what the areas do
@@ -20,22 +22,31 @@ LONGEST = 60  # ticks that one leap spans at most
 GRADUAL = 4  # ticks over which a change counts as a steady one
 SHIFT = 2.0  # cells that an area moves before its rain is entered
 CHANGE = 0.02  # of a rain rate, before its rain is entered
+FASTEST_MELT = 1.0  # mm/s
 NO_AREAS = empty(AREA_DTYPE)
 
 
 class WetLevel:
-    """Water on the ground in mm: tiles as they were at `since`, and the rain that fell after."""
+    """Water on the ground in mm: tiles as they were at `since`, and the rain that fell after.
 
-    def __init__(self, level: int, since: int) -> None:
-        self.tiles = WetTiles(level)
+    Or snow, by its law: the law's melt, too, is that since then.
+    """
+
+    def __init__(self, level: int, since: int, law: GroundLaw = WATER) -> None:
+        self.tiles = WetTiles(level, law)
         self.since = since  # the tick the tiles are of
         self.rows = NO_AREAS  # the raining areas since then
         self._field = RainField(NO_AREAS)
         self._data: WetTileData | None = None
 
-    def tick(self, rows: NDArray, ticks: int) -> None:
+    def tick(self, rows: NDArray, ticks: int, law: GroundLaw = WATER) -> None:
         """A tick has passed, at whose end the areas were these rows of AREA_DTYPE."""
         pending = ticks - self.since
+        if not self.tiles.law.alike(law):
+            if pending > 1:
+                self._enter([self.rows], pending - 1)
+                pending, self.since = 1, ticks - 1
+            self.tiles.law, self._data = law, None
         same = rows is self.rows or self._alike(rows)
         if same and pending < LONGEST:
             return
@@ -86,13 +97,14 @@ class WetLevel:
         water = self.tiles.at(x, z)
         if ticks > self.since and (water > 0.0 or self._field):
             rate = self._field.rate(x, y, z) * MM_PER_S
-            water = settle_one(water, rate, FILM, (ticks - self.since) * TICK)
+            water = self.tiles.law.settle_one(water, rate, (ticks - self.since) * TICK)
         return water
 
     def data(self) -> WetTileData:
         """The same as plain arrays; the same object as long as nothing was entered."""
         if self._data is None:
-            self._data = WetTileData(*self.tiles.arrays(), self.since, self.rows)
+            melt = self.tiles.law.melt
+            self._data = WetTileData(*self.tiles.arrays(), self.since, self.rows, melt)
         return self._data
 
     # For snapshots
@@ -100,15 +112,22 @@ class WetLevel:
     def state(self) -> dict[str, Any]:
         """All there is to it, as plain values."""
         rows = [list(row) for row in plain_rows(self.rows)]
-        return {"rows": rows, "since": self.since, **self.tiles.state()}
+        law = self.tiles.law
+        return {"melt": law.melt, "rows": rows, "since": self.since, **self.tiles.state()}
 
     @classmethod
-    def from_state(cls, state: Any, ticks: int) -> WetLevel:
-        """The level that `state` was taken of. Raises InvalidValueError for anything else."""
-        fields = ["codes", "level", "places", "rows", "since"]
+    def from_state(cls, state: Any, ticks: int, law: Callable[[float], GroundLaw]) -> WetLevel:
+        """The level that `state` was taken of; `law` gives one for a melt in mm/s.
+
+        Raises InvalidValueError for anything else.
+        """
+        fields = ["codes", "level", "melt", "places", "rows", "since"]
         if not isinstance(state, dict) or sorted(state) != fields:
             raise InvalidValueError("wetness.levels", state, f"the fields {fields}")
-        tiles = WetTiles.from_state({name: state[name] for name in fields[:3]})
+        if type(state["melt"]) is not float or not 0.0 <= state["melt"] <= FASTEST_MELT:
+            raise InvalidValueError("wetness.melt", state["melt"], "0 to 1 mm/s")
+        kept = {name: state[name] for name in ("codes", "level", "places")}
+        tiles = WetTiles.from_state(kept, law(state["melt"]))
         found = cls(tiles.level, whole("wetness.since", state["since"], ticks))
         found.tiles, found.rows = tiles, _rows(state["rows"])
         found._field = RainField(found.rows)

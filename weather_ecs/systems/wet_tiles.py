@@ -1,4 +1,7 @@
-"""`WetTiles`: the wet cells of one size, in tiles of 8 by 8 that exist only where it is wet."""
+"""`WetTiles`: the cells of one size on which water or snow lies, in tiles of 8 by 8.
+
+They exist only where there is any.
+"""
 
 from __future__ import annotations
 
@@ -9,14 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.errors import InvalidValueError
+from weather_ecs.physics.ground_law import WATER, GroundLaw
 from weather_ecs.physics.rain_field import area_shares, plain_rows
-from weather_ecs.physics.wetness import DRYING, FILM, MM_PER_S, settle
+from weather_ecs.physics.wetness import MM_PER_S
 
 SIDE = 8  # cells on a side of a tile
 FINEST, COARSEST = -2, 40  # levels; a cell is 2**level m wide
-MOST = 16.0  # mm, more is not kept apart
 MOST_TILES = 1024
-_CODES = 2**14 - 1  # water is kept as the square root of its share of MOST, in so many steps
 _TRACE = 1e-2  # mm, less is dry
 _CELLS = 400  # of an area, about
 _FAR = 2**31
@@ -29,14 +31,19 @@ def level_of(a: float, b: float) -> int:
 
 
 class WetTiles:
-    """Water in mm on cells of 2**level metres; tile (i, j) begins at (8 i, 8 j) cells."""
+    """Water in mm on cells of 2**level metres; tile (i, j) begins at (8 i, 8 j) cells.
 
-    def __init__(self, level: int) -> None:
+    `law` says what becomes of it, and how exactly it is kept; a later one replaces it.
+    """
+
+    def __init__(self, level: int, law: GroundLaw = WATER) -> None:
+        self.law = law
+        self._steps = 2 ** (8 * law.planes - 2) - 1
         self.level = level
         self.cell = 2.0**level
         self._places: list[tuple[int, int]] = []
         self._rows: dict[tuple[int, int], int] = {}
-        self._codes = np.zeros((0, SIDE, SIDE), np.uint16)  # (tile, along z, along x)
+        self._codes = np.zeros((0, SIDE, SIDE), np.uint32)  # (tile, along z, along x)
         self._inflow = np.zeros((0, SIDE, SIDE))  # mm/s
         # Shares of the rain by the area's geometry, of the last round and of this one.
         self._known: dict[tuple, _Shares] = {}
@@ -63,7 +70,7 @@ class WetTiles:
             self._places.append(place)
             if row >= len(self._codes):
                 more = np.zeros((max(row, 16), SIDE, SIDE))
-                self._codes = np.concatenate([self._codes, more.astype(np.uint16)])
+                self._codes = np.concatenate([self._codes, more.astype(np.uint32)])
                 self._inflow = np.concatenate([self._inflow, more])
         return row
 
@@ -72,22 +79,21 @@ class WetTiles:
         count = len(self._places)
         inflow = self._inflow[:count]
         rained = inflow.any(axis=(1, 2))
-        water = _decode(self._codes[:count])
-        wet = rained | (water > FILM).any(axis=(1, 2))
-        water *= math.exp(-seconds / DRYING)  # what there is to most of them
-        if wet.any():
-            before = _decode(self._codes[:count][wet])
-            water[wet] = settle(before, inflow[wet], FILM, seconds)
-        codes = _encode(water)
+        before = self._decode(self._codes[:count])
+        water, falls = self.law.rest(before, seconds)
+        falls |= rained
+        if falls.any():
+            water[falls] = self.law.settle(before[falls], inflow[falls], seconds)
+        codes = self._encode(water)
         wettest = codes.max(axis=(1, 2), initial=0)
-        kept = (wettest > _encode(np.array(_TRACE))) | rained
+        kept = (wettest > self._encode(np.array(_TRACE))) | rained
         if np.count_nonzero(kept) > MOST_TILES:
             order = np.argsort(np.where(kept, wettest.astype(int), -1), kind="stable")
             kept[order[:-MOST_TILES]] = False
         self._take([p for p, keep in zip(self._places, kept, strict=True) if keep], codes[kept])
         self._known, self._used = self._used, {}
 
-    def _take(self, places: list[tuple[int, int]], codes: NDArray[np.uint16]) -> None:
+    def _take(self, places: list[tuple[int, int]], codes: NDArray[np.uint32]) -> None:
         self._places, self._codes = places, codes
         self._rows = {place: row for row, place in enumerate(places)}
         self._inflow = np.zeros(codes.shape)
@@ -105,13 +111,21 @@ class WetTiles:
         row = self._rows.get((i >> 3, j >> 3))
         if row is None:
             return 0.0
-        root = self._codes.item(row, j & 7, i & 7) / _CODES
-        return root * root * MOST
+        root = self._codes.item(row, j & 7, i & 7) / self._steps
+        return root * root * self.law.most
 
     def arrays(self) -> tuple[float, NDArray[np.int64], NDArray[np.float32]]:
         """(cell in m, tiles (n, 2), water (n, 8, 8) in mm, rows along z)."""
         places = np.array(self._places, np.int64).reshape(-1, 2)
-        return self.cell, places, _decode(self._codes[: len(places)]).astype(np.float32)
+        return self.cell, places, self._decode(self._codes[: len(places)]).astype(np.float32)
+
+    def _encode(self, water: NDArray) -> NDArray[np.uint32]:
+        share = np.clip(water / self.law.most, 0.0, 1.0)
+        return np.round(np.sqrt(share) * self._steps).astype(np.uint32)
+
+    def _decode(self, codes: NDArray[np.uint32]) -> NDArray[np.float64]:
+        root = codes.astype(np.float64) / self._steps
+        return root * root * self.law.most
 
     # For snapshots
 
@@ -121,15 +135,17 @@ class WetTiles:
         values = self._codes[order].reshape(-1).astype(np.int32)
         steps = values.copy()
         steps[1:] -= values[:-1]
-        low, high = (steps & 0xFF).astype(np.uint8), (steps >> 8 & 0xFF).astype(np.uint8)
+        planes = [
+            (steps >> 8 * k & 0xFF).astype(np.uint8) for k in reversed(range(self.law.planes))
+        ]
         return {
-            "codes": (high.tobytes() + low.tobytes()).hex(),
+            "codes": b"".join([plane.tobytes() for plane in planes]).hex(),
             "level": self.level,
             "places": [list(self._places[k]) for k in order],
         }
 
     @classmethod
-    def from_state(cls, state: Any) -> WetTiles:
+    def from_state(cls, state: Any, law: GroundLaw = WATER) -> WetTiles:
         """The tiles that `state` was taken of. Raises InvalidValueError for anything else."""
         fields = ["codes", "level", "places"]
         if not isinstance(state, dict) or sorted(state) != fields:
@@ -147,14 +163,18 @@ class WetTiles:
             raw = np.frombuffer(bytes.fromhex(codes), np.uint8)
         except (TypeError, ValueError):
             raise InvalidValueError("wetness.codes", codes, "hexadecimal digits") from None
-        if len(raw) != 2 * count:
-            raise InvalidValueError("wetness.codes", codes, f"{4 * count} hexadecimal digits")
-        steps = raw[count:].astype(np.int64) | raw[:count].astype(np.int64) << 8
-        values = np.cumsum(steps) & 0xFFFF
-        if int(values.max(initial=0)) > _CODES:
-            raise InvalidValueError("wetness.codes", int(values.max()), f"0 to {_CODES}")
-        tiles = cls(level)
-        tiles._take(named, values.astype(np.uint16).reshape(-1, SIDE, SIDE))
+        planes = law.planes
+        if len(raw) != planes * count:
+            allowed = f"{2 * planes * count} hexadecimal digits"
+            raise InvalidValueError("wetness.codes", codes, allowed)
+        steps = np.zeros(count, np.int64)
+        for plane in raw.reshape(planes, count):
+            steps = steps << 8 | plane
+        values = np.cumsum(steps) & (1 << 8 * planes) - 1
+        tiles = cls(level, law)
+        if int(values.max(initial=0)) > tiles._steps:
+            raise InvalidValueError("wetness.codes", int(values.max()), f"0 to {tiles._steps}")
+        tiles._take(named, values.astype(np.uint32).reshape(-1, SIDE, SIDE))
         return tiles
 
 
@@ -185,16 +205,6 @@ class _Shares:
             zip((columns + first[0]).tolist(), (rows + first[1]).tolist(), strict=True)
         )
         self.values = values[wet]
-
-
-def _encode(water: NDArray) -> NDArray[np.uint16]:
-    share = np.clip(water / MOST, 0.0, 1.0)
-    return np.round(np.sqrt(share) * _CODES).astype(np.uint16)
-
-
-def _decode(codes: NDArray[np.uint16]) -> NDArray[np.float64]:
-    root = codes.astype(np.float64) / _CODES
-    return root * root * MOST
 
 
 def _place(value: Any) -> tuple[int, int]:
