@@ -289,6 +289,27 @@ def test_in_the_open_a_gauge_reads_the_areas_rain_rate(
 
 
 @pytest.mark.usefixtures("target")
+def test_gusts_a_profile_and_turbulence_take_no_rain_and_bring_none(
+    ctx: moderngl.Context, backend: str
+) -> None:
+    with Weather(context=ctx, backend=backend, quality="medium", seed=3) as weather:
+        esper.create_entity(RainArea((0, 0), (200, 200), RATE))
+        esper.create_entity(
+            Wind(
+                (0.6, 0.8), 9.0, gustiness=0.6, interval=5.0, veer=0.5, veer_period=9.0,
+                exponent=1 / 7, turbulence=0.25, ground=-1.0, scale=5.0,
+            )
+        )  # fmt: skip
+        gauges = [RainGauge((x, y, z)) for x, z, y in PLACES]
+        for gauge in gauges:
+            esper.create_entity(gauge)
+        watch(weather, 30.0)
+        got = [gauge.rate for gauge in gauges]
+        assert got == pytest.approx([RATE] * len(gauges), rel=0.05)
+        assert got != [RATE] * len(gauges)
+
+
+@pytest.mark.usefixtures("target")
 def test_nothing_lands_under_a_roof_and_all_of_it_beside(
     ctx: moderngl.Context, backend: str
 ) -> None:

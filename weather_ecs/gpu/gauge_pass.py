@@ -22,6 +22,8 @@ from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.footprint import fall_speed_of
 from weather_ecs.physics.gauge import catch_radius, landing_water
 from weather_ecs.physics.rain_field import RainField
+from weather_ecs.physics.snowfall import smallest_speed, snowfall
+from weather_ecs.physics.wind import height_share
 
 MAX_GAUGES = 32  # counted; the others read the areas' rates
 MAX_ROWS = 32  # containers
@@ -152,8 +154,8 @@ class GaugePass:
         areas = view.frame.areas
         area = areas[areas["key"] == container.key >> 1]
         field = RainField(area)
-        full = float(area["rain_rate"][0])
-        speed = fall_speed_of(full)
+        full, (water, speed, slowest) = float(area["rain_rate"][0]), _landing(container, view)
+        highest = max(gauge.position[1] for gauge in gauges)
         radii = [_catch_radius(gauge, container, speed) for gauge in gauges]
         for k, (gauge, radius) in enumerate(zip(gauges, radii, strict=True)):
             share = field.rate(*gauge.position) / full
@@ -162,6 +164,8 @@ class GaugePass:
         wind = math.hypot(view.frame.wind[0], view.frame.wind[2])
         data = self._block.data
         data["gauge_scale"] = (2.0 / MAX_GAUGES, 2.0 / MAX_ROWS)
+        wind *= max(height_share(highest - air.ground, air.reference, air.exponent), 1.0)
+        wind += 2.0 * air.turbulence
         data["gauge_row"] = row
         data["gauge_water"] = landing_water(full)
         data["gauge_turn"] = 0.7548777 * self._count % 1.0 * 2.0 * math.pi
