@@ -64,11 +64,7 @@ class ImpactReader:
             return known[1]
         if known is not None:
             known[1].release()
-        names = [n if n in self.program else "" for n in ("in_hit", "in_surface", "in_fall")]
-        layout = " ".join("4f" if name else "16x" for name in names)
-        array = self._ctx.vertex_array(
-            self.program, [(records, layout, *[name for name in names if name])]
-        )
+        array = impact_array(self._ctx, self.program, records)
         self._arrays[key] = (records, array)
         return array
 
@@ -77,6 +73,19 @@ class ImpactReader:
         for _, array in self._arrays.values():
             array.release()
         self._arrays.clear()
+
+
+def impact_array(
+    ctx: moderngl.Context,
+    program: moderngl.Program,
+    records: moderngl.Buffer,
+    ids: moderngl.Buffer | None = None,
+) -> moderngl.VertexArray:
+    """The records of a list as vertices of a program made with IMPACT_LIST; those in `ids`."""
+    names = [n if n in program else "" for n in ("in_hit", "in_surface", "in_fall")]
+    layout = " ".join("4f" if name else "16x" for name in names)
+    content = [(records, layout, *[name for name in names if name])]
+    return ctx.vertex_array(program, content, index_buffer=ids)
 
 
 def _points(array: moderngl.VertexArray, count: int) -> None:

@@ -250,6 +250,7 @@ class Renderer:
         """Give back what belongs to an observer who is gone."""
         heightmap = self._maps.pop(key, None)
         with self._guard:
+            self._splash.forget(key)
             self._rain.forget(key)
             self._ripples.forget(key)
             self._wetness.forget(key)

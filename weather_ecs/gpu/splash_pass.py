@@ -12,6 +12,7 @@ from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.impact_source import ImpactReader
 from weather_ecs.gpu.rain_pass import RainPass
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.gpu.splash_list import SplashList
 from weather_ecs.gpu.splash_texture import splash_texture
 from weather_ecs.gpu.timer import PrimitiveCounter
 from weather_ecs.physics.splash import acceleration
@@ -32,6 +33,12 @@ SPLASH = UniformBlock(
     ("water_count", "int"),
 )
 DRAW = ProgramKey(vertex="splash.vert", geometry="splash.geom", fragment="splash.frag")
+SMALL = ProgramKey(
+    vertex="splash.vert",
+    geometry="splash.geom",
+    fragment="splash.frag",
+    defines=("IMPACT_LIST", "SMALL"),
+)
 COUNT = ProgramKey(vertex="splash.vert", geometry="splash_count.geom")
 # Splashes are counted in one draw out of so many: it takes a pass of its own.
 COUNT_EVERY = 8
@@ -46,10 +53,17 @@ class SplashPass:
         self._ctx = ctx
         self._texture = splash_texture(ctx)
         self._block = BlockBuffer(ctx, SPLASH)
+        self._rain = rain
         self._splashes = ImpactReader(ctx, shaders, rain, "splash", DRAW)
         self._splashes.program["splash_frames"] = FRAMES_UNIT
         self._counted = ImpactReader(ctx, shaders, rain, "splash count", COUNT)
         self._counter = PrimitiveCounter(gl)
+        self._lists: SplashList | None = None
+        if rain.has_lists:
+            small = shaders.program(SMALL)
+            small["splash_frames"] = FRAMES_UNIT
+            large, counted = self._splashes.program, self._counted.program
+            self._lists = SplashList(ctx, shaders, small, large, counted)
         self._draws = 0
 
     @property
@@ -66,19 +80,36 @@ class SplashPass:
         self._block.upload()
         self._block.bind()
         self._texture.use(FRAMES_UNIT)
-        self._splashes.run(view, _points)
+        impacts = self._rain.impacts(view.key)
+        if self._lists is None:
+            self._splashes.run(view, _points)
+        elif impacts is not None:
+            self._lists.find(view.key, impacts)
+            # Those far off first.
+            self._lists.draw(view.key, 0, large=False)
+            self._lists.draw(view.key, 1, large=True)
         if self._draws % COUNT_EVERY == 0:
             self._ctx.enable(moderngl.RASTERIZER_DISCARD)
             with self._counter:
-                self._counted.run(view, _points)
+                if self._lists is None:
+                    self._counted.run(view, _points)
+                elif impacts is not None:
+                    self._lists.draw(view.key, 2, large=False)
+                    self._lists.draw(view.key, 2, large=True)
             self._ctx.disable(moderngl.RASTERIZER_DISCARD)
         self._draws += 1
+
+    def forget(self, key: int) -> None:
+        """Give back what belongs to an observer who is gone."""
+        if self._lists is not None:
+            self._lists.forget(key)
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
         things = (self._counter, self._counted, self._splashes, self._block, self._texture)
-        for thing in things:
-            thing.release()
+        for thing in (self._lists, *things):
+            if thing is not None:
+                thing.release()
 
 
 def fill_splash(block: BlockBuffer, view: ViewData, look: SplashLook) -> None:

@@ -2,7 +2,8 @@
 //   IMPACT_LIST   the records that the compute kernel has listed
 //   otherwise     the drops themselves, each with its own last impact (feedback)
 // read_impact gives false where a vertex holds none. The program needs the block RainView; without
-// IMPACT_LIST also the block RainDraw of the container and the collision heightmap.
+// IMPACT_LIST also the block RainDraw of the container and the collision heightmap. A compute shader
+// has the records of the list by their numbers.
 #include <block:RainView>
 
 struct Impact {
@@ -15,16 +16,29 @@ struct Impact {
     float seed;      // in [0, 1)
 };
 
-#ifdef IMPACT_LIST
+#if defined(IMPACT_LIST) || defined(IMPACT_RECORDS)
+bool unpack_impact(vec4 hit, vec4 surface, vec4 fall, out Impact i)
+{
+    i = Impact(hit.xyz, view_time.x - hit.w, surface.xyz, surface.w, fall.x, fall.y, fall.z);
+    return i.age >= 0.0 && i.age < 100.0;
+}
+#endif
+#ifdef IMPACT_RECORDS
+layout(std430, binding = 3) readonly buffer Impacts { vec4 impacts[]; };  // three a record
+
+bool read_impact(uint record, out Impact i)
+{
+    uint k = record * 3u;
+    return unpack_impact(impacts[k], impacts[k + 1u], impacts[k + 2u], i);
+}
+#elif defined(IMPACT_LIST)
 in vec4 in_hit;
 in vec4 in_surface;
 in vec4 in_fall;
 
 bool read_impact(out Impact i)
 {
-    i = Impact(in_hit.xyz, view_time.x - in_hit.w, in_surface.xyz, in_surface.w,
-               in_fall.x, in_fall.y, in_fall.z);
-    return i.age >= 0.0 && i.age < 100.0;
+    return unpack_impact(in_hit, in_surface, in_fall, i);
 }
 #else
 #include "drop_law.glsl"

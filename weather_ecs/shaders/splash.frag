@@ -8,6 +8,9 @@ out vec4 color;
 
 void main()
 {
+#ifdef SMALL
+    if (max(gs_uv.x, gs_uv.y) > 1.0) discard;
+#endif
     vec2 water = texture(splash_frames, vec3(gs_uv, gs_layer)).rg;
     color = vec4(gs_color.rgb * (0.5 + 0.7 * water.g), gs_color.a * water.r);
 }

@@ -1,7 +1,12 @@
 // A splash: the film that spreads flat over the surface, the crown on it, and droplets on parabolas
-// that end where they hit again. Film and droplets are only there close by.
+// that end where they hit again. Film and droplets are only there close by. SMALL: there is nothing
+// but the crown, and that is so small that one triangle, of twice its area, is drawn sooner than two.
 layout(points) in;
+#ifdef SMALL
+layout(triangle_strip, max_vertices = 3) out;
+#else
 layout(triangle_strip, max_vertices = 23) out;
+#endif
 #include "splash.glsl"
 #include "splash_quad.glsl"
 #include "shelter.glsl"
@@ -69,7 +74,11 @@ void crown(vec4 form, vec3 n, vec4 color)
     float tall = reach * (0.8 + 0.5 * hash_unit(h ^ 0x9E3779B9u));
     vec3 middle = vs_at[0] + up * (tall * (TALL - BELOW));
     float kind = (form.z > 0.5 ? BURST : CROWN) + variant;
+#ifdef SMALL
+    triangle(middle, side * reach, up * (tall * TALL), layer_at(kind, form.y), color);
+#else
     quad(middle, side * reach, up * (tall * TALL), layer_at(kind, form.y), color);
+#endif
 }
 
 void droplets(float seed, vec3 n, vec3 first, vec3 second, vec4 color)
@@ -103,10 +112,14 @@ void main()
     vec4 form = vs_form[0];
     if (form.x <= 0.0) return;
     vec3 n = vs_normal[0];
+#ifdef SMALL
+    crown(form, n, vs_color[0]);
+#else
     vec3 first = normalize(vec3(n.y, -n.x, 0.0));
     vec3 second = cross(n, first);
     vec4 near = vec4(vs_color[0].rgb, vs_throw[0].z);
     if (near.a > FAINTEST) film(form, first, second, near);
     crown(form, n, vs_color[0]);
     if (near.a > FAINTEST) droplets(form.w, n, first, second, near);
+#endif
 }

@@ -1,6 +1,5 @@
 // What one impact's splash looks like; radius 0 where there is none to draw.
-#include "impact.glsl"
-#include "splash.glsl"
+#include "splash_seen.glsl"
 #include "drop_light.glsl"
 #include "encode.glsl"
 #include "fog.glsl"
@@ -10,8 +9,6 @@ out vec3 vs_normal;
 out vec4 vs_color;  // encoded, with the crown's opacity
 out vec4 vs_form;   // radius in m, share of its life that is over, 1 on water, seed
 out vec3 vs_throw;  // speed of the droplets in m/s, age in s, opacity of film and droplets
-
-const float THROWN = 0.4;  // m that droplets fly, for culling
 
 float on_water(vec3 p)
 {
@@ -32,28 +29,11 @@ void main()
     vs_color = vs_form = vec4(0.0);
     gl_Position = vec4(0.0);
     Impact i;
-    if (!read_impact(i) || i.age >= max(splash_look.z, LONGEST)) return;
-    vec4 clip = view_projection * vec4(i.position, 1.0);
-    if (clip.w < 0.2) return;
-    float high = stature(i.weight, i.seed);
-    float radius = crown_radius(i.diameter, i.speed, high);
-    float pixels = radius * camera_position.w / clip.w;
-    vec2 margin = (3.0 * radius + THROWN) * camera_position.w * 2.0 / view_size.xy;
-    if (pixels < 0.2 || any(greaterThan(abs(clip.xy), clip.ww + margin))) return;
-
-    vec3 ray = i.position - camera_position.xyz;
-    float away = length(ray);
-    ray /= away;
-    float opacity = splash_look.w * min(i.weight * 0.1, 1.0) * smoothstep(0.2, 0.6, clip.w);
-    float x = i.age / splash_look.z;
-    // Seen from above, an upright picture has nothing to show: the film is there then.
-    float crown = opacity * min(pixels, 1.0)
-        * (1.0 - smoothstep(0.55, 0.92, abs(dot(ray, i.normal)))) * step(x, CROWN_LIFE);
-    float detail = opacity * (1.0 - smoothstep(0.6 * splash_pull.w, splash_pull.w, clip.w));
-    if (max(crown, detail) < FAINTEST) return;
+    Seen s;
+    if (!read_impact(i) || !splash_seen(i, s)) return;
     vs_at = i.position;
     vs_normal = i.normal;
-    vs_color = vec4(encode(in_fog(drop_light(i.position, ray), away)), crown);
-    vs_form = vec4(radius, x, on_water(i.position), i.seed);
-    vs_throw = vec3(i.speed * splash_spray.z * min(high, 1.0), i.age, detail);
+    vs_color = vec4(encode(in_fog(drop_light(i.position, s.ray), s.away)), s.crown);
+    vs_form = vec4(s.radius, s.x, on_water(i.position), i.seed);
+    vs_throw = vec3(i.speed * splash_spray.z * min(s.high, 1.0), i.age, s.detail);
 }

@@ -40,3 +40,12 @@ void quad(vec3 p, vec3 a, vec3 b, float layer, vec4 color)
     corner(lifted(p + a + b), vec2(1.0, 1.0), layer, color);
     EndPrimitive();
 }
+
+// The same as one triangle, of which the fragment shader leaves out what lies beyond.
+void triangle(vec3 p, vec3 a, vec3 b, float layer, vec4 color)
+{
+    corner(lifted(p - a - b), vec2(0.0, 0.0), layer, color);
+    corner(lifted(p + 3.0 * a - b), vec2(2.0, 0.0), layer, color);
+    corner(lifted(p - a + 3.0 * b), vec2(0.0, 2.0), layer, color);
+    EndPrimitive();
+}
