@@ -1,0 +1,169 @@
+"""Clouds' place, growth and light, as shaders/cloud_row.glsl and shaders/cloud_light.glsl have it.
+
+Notation: v vertex from the cloud's centre, world axes, m; s the centre of its seed from there;
+n unit normal; w unit, from the camera to the vertex; L unit, towards the sun; a what the seed's
+ray has lost, 0 to 1. Colours linear RGB. Arrays are (..., 3) or (...,).
+Source of the plain light: Torchelsen 2005, 3.3, after Wang 2004.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from weather_ecs.physics.optics import CLEAR
+
+Array = NDArray[np.float64]
+
+CLEAN = CLEAR  # 1/m, extinction of clean air at the ground
+CLEAN_HEIGHT = 2000.0  # m, over which clean air's haze thins by a factor e
+FOG_HEIGHT = 150.0  # m, the same of what fog and rain add to it
+FADE = 0.3  # of the growth, over which one billboard comes or goes
+
+
+def smoothstep(low: float, high: float, value: ArrayLike) -> Array:
+    t = np.clip((np.asarray(value, np.float64) - low) / (high - low), 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
+def presence(growth: ArrayLike, mode: ArrayLike, order: ArrayLike) -> Array:
+    """0 to 1: how much of a billboard is there; growth 0: nothing, 1: all.
+
+    mode 0: the highest orders go first when it dissolves, from the rim; 1: the lowest, the core.
+    """
+    mode, order = np.asarray(mode), np.asarray(order)
+    turn = order * (1.0 - mode) + (1.0 - order) * mode
+    return smoothstep(0.0, 1.0, (np.asarray(growth) * (1.0 + FADE) - turn) / FADE)
+
+
+def place(
+    p: Array, scale: float, mirror: float, heading: float, shear: tuple[float, float]
+) -> Array:
+    """A place of the shape in the cloud, m from its centre: scaled, mirrored, turned, leant."""
+    c, s = np.cos(heading), np.sin(heading)
+    x, y, z = (p[..., 0] * scale * mirror, p[..., 1] * scale, p[..., 2] * scale)
+    return np.stack([x * c + z * s + shear[0] * y, y, z * c - x * s + shear[1] * y], axis=-1)
+
+
+def plain_light(v: Array, a: Array, L: Array, sun: Array, ambient: Array) -> Array:
+    """diffuse + ambient, diffuse = clamp(dot(L, unit(v)) sun - a, 0, 1)."""
+    n = v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-6)
+    diffuse = (n @ L)[..., None] * sun - np.asarray(a)[..., None]
+    return np.clip(diffuse, 0.0, 1.0) + ambient
+
+
+@dataclass(frozen=True, slots=True)
+class Surround:
+    """What lights a cloud; linear RGB, (3,)."""
+
+    direction: Array  # unit, towards the sun
+    sun: Array
+    above: Array
+    below: Array
+    plain: Array  # the plain model's one ambient light
+
+
+def surround(
+    direction: ArrayLike, sun: ArrayLike, zenith: ArrayLike, horizon: ArrayLike, ground: ArrayLike
+) -> Surround:
+    """Light of sky and ground as a cloud gets it."""
+    sun, zenith, horizon, ground = (
+        np.asarray(c, np.float64) for c in (sun, zenith, horizon, ground)
+    )
+    towards = np.asarray(direction, np.float64)
+    up = max(float(towards[1]), 0.0)
+    above = 0.62 * zenith + 0.24 * horizon
+    # Ground lit by sun and sky, and the bright air between.
+    below = ground * (0.55 * sun * up + 0.35 * zenith) + 0.36 * horizon + 0.06 * zenith
+    plain = 0.45 * zenith + 0.15 * horizon + 0.15 * ground
+    return Surround(towards, sun, above, below, plain)
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """What a cloud's light needs to know of it."""
+
+    half_size: Array  # (3,) m
+    base: float  # m, of its underside from its centre
+    darkness: float = 0.0
+    flash: float = 0.0
+
+
+def full_light(
+    v: Array,
+    s: Array,
+    w: Array,
+    a: Array,
+    body: Body,
+    light: Surround,
+    look: tuple[float, float, float] = (1.0, 1.0, 1.0),
+) -> tuple[Array, Array, Array, Array]:
+    """Light of what faces the sun, of what does not, of the rim, and which of the first two (...,).
+
+    look: strengths of lining, bases, ambient.
+    """
+    silver, bases, ambience = look
+    q = v / body.half_size
+    whole, own = q / body.half_size, v - s
+    n = 0.65 * whole / np.maximum(_length(whole), 1e-9) + 0.35 * own / np.maximum(_length(own), 1e-3)
+    n = n / np.maximum(_length(n), 1e-6)
+    rise = np.clip((v[..., 1] - body.base) / (2.0 * body.half_size[1]), 0.0, 1.0)
+    towards = n @ light.direction
+    through = np.exp(-1.35 * np.asarray(a))
+
+    up = 0.5 + 0.5 * n[..., 1]
+    up = (up * up * (3.0 - 2.0 * up))[..., None]
+    ambient = light.below * (1.0 - up) + light.above * up
+    ambient = ambient * (ambience * (0.62 + 0.38 * rise))[..., None]
+    deep = bases * (0.30 + 0.70 * body.darkness)
+    under = 1.0 - deep * (1.0 - smoothstep(0.0, 0.55, rise)) * 0.62
+    dim = (under * (1.0 - 0.45 * body.darkness * bases))[..., None]
+
+    sun = light.sun * through[..., None]
+    ahead = w @ light.direction
+    forward = 0.18 * (0.5 + 0.5 * ahead) ** 6 + 0.9 * np.maximum(ahead, 0.0) ** 40
+    lit = (sun * (0.70 + 0.10 * towards)[..., None] + ambient) * dim
+    shade = (sun * (0.17 + 0.06 * towards)[..., None] + 0.92 * ambient) * dim
+    facing = np.clip(0.5 + 0.52 * towards - 0.30 * a, 0.0, 1.0)
+
+    aside = q - w * (q * w).sum(-1, keepdims=True)
+    edge = smoothstep(0.35, 0.95, _length(aside)[..., 0])
+    rim = (silver * forward * (0.25 + 0.75 * edge) * (1.0 - 0.6 * a))[..., None] * light.sun
+
+    inside = np.maximum(1.0 - 0.55 * (q * q).sum(-1), 0.12)[..., None]
+    flash = body.flash * inside * np.array([0.86, 0.90, 1.0])
+    return lit + flash, shade + flash, rim, facing
+
+
+def _length(x: Array) -> Array:
+    length: Array = np.linalg.norm(x, axis=-1, keepdims=True)
+    return length
+
+
+def haze_share(center: Array, camera_height: float, extinction: float) -> Array:
+    """0 to 1, (n,): how far the air between hides clouds; center (n, 3) from the camera.
+
+    Beer and Lambert along the line of sight through air whose extinction falls with height as
+    exp(-h / H), in closed form; fog and rain lie lower than clean air's haze.
+    """
+    away = np.maximum(np.linalg.norm(center, axis=1), 1e-6)
+    rise = center[:, 1]
+    depth = np.zeros(len(center))
+    clean = min(extinction, CLEAN)
+    for part, height in ((clean, CLEAN_HEIGHT), (extinction - clean, FOG_HEIGHT)):
+        x = np.clip(rise / height, -50.0, 50.0)
+        small = np.abs(x) < 1e-6
+        mean = np.where(small, 1.0, -np.expm1(-x) / np.where(small, 1.0, x))
+        depth += part * np.exp(-min(max(camera_height, 0.0) / height, 50.0)) * mean * away
+    return -np.expm1(-np.minimum(depth, 50.0))
+
+
+def haze_color(center: Array, horizon: ArrayLike, zenith: ArrayLike, light: Surround) -> Array:
+    """Linear RGB, (n, 3), of the air before clouds: the horizon's, brighter towards the sun."""
+    away = np.maximum(np.linalg.norm(center, axis=1), 1e-6)
+    sine = np.clip(center[:, 1] / away, 0.0, 1.0)[:, None]
+    mixed = np.asarray(horizon) * (1.0 - 0.5 * sine) + np.asarray(zenith) * 0.5 * sine
+    ahead = np.maximum(center @ light.direction / away, 0.0)[:, None]
+    return mixed + light.sun * (0.10 * ahead**4 + 0.18 * ahead**32)
