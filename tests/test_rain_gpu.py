@@ -100,7 +100,7 @@ def oracle(views: list, shelter: ShelterMap | None = None) -> dict[int, np.ndarr
             d["steps"] += 1
             before = d["placed"] or placing
             count = min(int(c.count) + 1, N)
-            seed = (7 * 0x9E3779B1 + c.key * 0x85EBCA6B + d["steps"]) & 0xFFFFFFFF
+            seed = (7 * 0x9E3779B1 + c.word * 0x85EBCA6B + d["steps"]) & 0xFFFFFFFF
             step = rain_step.Step(
                 *before, *placing, (*view.frame.wind, view.dt), c.law, seed,
                 0 if d["placed"] is None else d["alive"],

@@ -17,7 +17,8 @@ from weather_ecs.physics import lod
 from weather_ecs.physics.container import Area, ContainerSettings, place
 from weather_ecs.physics.drops import drop_density, extinction
 from weather_ecs.physics.rain_step import axis_of, law_of, shape_of
-from weather_ecs.systems.rain_view import RainView, shown_distance
+from weather_ecs.systems.falls import shown_distance
+from weather_ecs.systems.rain_view import RainView
 
 LOOK = DropLook()
 NEAR = area()
@@ -29,7 +30,7 @@ def counts(view: ViewData) -> dict[int, float]:
     """Drops in use by area, both halves of a whole cylinder counted."""
     found: dict[int, float] = {}
     for container in view.containers:
-        found[container.key >> 1] = found.get(container.key >> 1, 0.0) + container.count
+        found[container.area] = found.get(container.area, 0.0) + container.count
     return found
 
 
@@ -75,7 +76,7 @@ def test_a_container_is_what_the_physics_places():
     assert found.area_axis == pytest.approx((0.0, 0.0, math.cos(0.3), math.sin(0.3)))
     assert found.area_shape == (60.0, 40.0, 40.0, 400.0)  # the soft edge ends at b
     assert found.law == law_of(12.0)
-    assert (found.key, found.count, found.size_scale) == (6, 800.0, 1.0)
+    assert (found.area, found.count, found.size_scale) == (3, 800.0, 1.0)
     assert found.births.shape == (800, 4) and not found.births.flags.writeable
 
 
@@ -161,7 +162,7 @@ def test_the_budget_scales_the_counts_and_keeps_the_buffers():
 def test_slots_go_to_the_nearest_areas_and_the_rest_are_veils():
     rows = [area(k, (0.0, -150.0 * (k + 1)), (50.0, 30.0)) for k in range(6)]
     view = RainView().view(frame(*reversed(rows)), camera(heading=NORTH), 0, quality(containers=2))
-    assert [c.key for c in view.containers] == [0, 2]
+    assert [c.area for c in view.containers] == [0, 1]
     assert len(view.veils) == 6
     assert [veil.shown > 0.0 for veil in view.veils] == [False] * 6  # all beyond the reach
     none = RainView().view(frame(NEAR), camera(), 0, quality(containers=0))
@@ -213,7 +214,7 @@ def test_any_areas_from_anywhere(rows: list[Any], path: list[Any]):
         at, choice = camera((x, y, z), heading, pitch), quality(100, 3, 0.7)
         view = rain.view(frame(*areas, time=time), at, 0, choice)
         keys = [c.key for c in view.containers]
-        assert len(set(keys)) == len(keys) and len({key >> 1 for key in keys}) <= 3
+        assert len(set(keys)) == len(keys) and len({key >> 2 for key in keys}) <= 3
         first_halves = sum(c.count for c in view.containers if not c.key & 1)
         assert first_halves <= 100 * 0.7 + 3.0  # every container has one drop at least
         assert 0.0 <= view.dt <= 0.1

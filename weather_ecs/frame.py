@@ -167,7 +167,10 @@ class WetTileData:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WetnessData:
-    """Water on level ground under the open sky: where the GPU's own map begins, and beyond it."""
+    """Water on level ground under the open sky: where the GPU's own map begins, and beyond it.
+
+    Or snow there.
+    """
 
     number: int  # another one where the ground is another, as when a snapshot was restored
     ticks: int  # seconds of weather done
@@ -279,6 +282,7 @@ class FrameData:
     splash: SplashLook | None = None  # None: no splashes
     ripples: tuple[RippleData, ...] = ()
     wetness: WetnessData | None = None
+    snow_ground: WetnessData | None = None  # the same of snow that lies, mm of water
     heightmap: HeightmapLook = field(default_factory=HeightmapLook)
     gauges: tuple[GaugeData, ...] = ()
     air: AirData = field(default_factory=AirData)
@@ -289,7 +293,7 @@ class FrameData:
     cloud_look: CloudLook = field(default_factory=CloudLook)
     # Areas whose rain has begun or ended of late, by key: spells without, s; see `physics.front`.
     fronts: Mapping[int, Spells] = field(default_factory=lambda: NO_FRONTS)
-    snow: SnowLook = field(default_factory=SnowLook)
+    flakes: SnowLook = field(default_factory=SnowLook)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Pictures of snow flakes, made here: crystals of six-fold symmetry, needles, clumps, melting flakes.
+"""Pictures of snow flakes, made here: six-fold crystals, needles, clumps, melting flakes.
 
 A picture is (SIZE, SIZE, 2) in 0 to 1: how much of a texel the flake covers, and how bright it is.
 Crystals are drawn as distances to shapes in a twelfth of the plane, into which the whole plane is
@@ -20,7 +20,7 @@ RADIUS = np.hypot(X, Y)
 
 
 def _folded() -> tuple[NDArray, NDArray]:
-    """The plane folded into the twelfth from an arm to half way to the next: along it, beside it."""
+    """The plane folded into a twelfth, from an arm half way to the next: along it, beside it."""
     sector = math.pi / 3.0
     angle = np.arctan2(Y, X) % sector
     angle = np.minimum(angle, sector - angle)
@@ -166,7 +166,7 @@ def tilted(image: NDArray, cx: float, cy: float, size: float, tilt: float, turn:
 
 
 def melting(rng: np.random.Generator) -> NDArray:
-    """A wet flake: a lump that has sunk in on itself, bright where ice is left, glassy around it."""
+    """A wet flake: a lump sunk in on itself, bright where ice is left, glassy around it."""
     edge = RADIUS - 0.7
     angle = np.arctan2(Y, X)
     for k in range(2, 6):

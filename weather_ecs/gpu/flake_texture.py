@@ -10,7 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.gpu.flake_shapes import (
-    SIZE, clump, dendrite, melting, needle, plate, star,
+    SIZE,
+    clump,
+    dendrite,
+    melting,
+    needle,
+    plate,
+    star,
 )  # fmt: skip
 
 # Kinds and how many pictures of each, in the order of the layers; also in flake.vert.
@@ -21,7 +27,7 @@ _SEED = 30
 
 
 def build() -> NDArray[np.uint8]:
-    """Every layer, (LAYERS, SIZE, SIZE, 2): how much of a texel the flake covers, how bright it is."""
+    """Every layer, (LAYERS, SIZE, SIZE, 2): share of a texel covered, and how bright it is."""
     made = _many(plate, PLATES, 0) + _many(needle, NEEDLES, 1)
     made += _many(star, STARS - _DENDRITES, 2) + _many(dendrite, _DENDRITES, 3)
     rng = np.random.default_rng((_SEED, 4))

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import moderngl
 import numpy as np
 
-from weather_ecs.frame import ContainerData, GaugeData, GaugeReading, ViewData
+from weather_ecs.frame import SNOW, ContainerData, GaugeData, GaugeReading, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
 from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass, drops_used
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
@@ -54,7 +54,8 @@ class _Counted:
     texture: moderngl.Texture
     copy: moderngl.Buffer
     gauges: tuple[GaugeData, ...] = ()
-    rows: tuple[int, ...] = ()  # keys of the areas
+    # Key of the area, and what is the same for what falls of all kinds in one half of a container.
+    rows: tuple[tuple[int, int], ...] = ()
     catches: tuple[tuple[float, ...], ...] = ()  # m2, by row and gauge
     time: float = 0.0
     seconds: float = 0.0
@@ -93,7 +94,7 @@ class GaugePass:
             older.texture.read_into(older.copy)
         containers = view.containers[:MAX_ROWS]
         slot.gauges, slot.time, slot.seconds = gauges, view.frame.time, view.dt
-        slot.rows = tuple([c.key >> 1 for c in containers])
+        slot.rows = tuple([(c.area, c.key & ~2) for c in containers])
         slot.target.use()
         slot.target.clear()
         self._ctx.enable_only(moderngl.BLEND)
@@ -152,7 +153,7 @@ class GaugePass:
     ) -> list[float]:
         """Upload the block; returns the radii of the catches."""
         areas = view.frame.areas
-        area = areas[areas["key"] == container.key >> 1]
+        area = areas[areas["key"] == container.area]
         field = RainField(area)
         full, (water, speed, slowest) = float(area["rain_rate"][0]), _landing(container, view)
         highest = max(gauge.position[1] for gauge in gauges)
@@ -161,15 +162,16 @@ class GaugePass:
             share = field.rate(*gauge.position) / full
             self._block["gauge_place"][k] = (*gauge.position, radius)
             self._block["gauge_shape"][k] = (math.sqrt(gauge.area / math.pi), share, 0.0, 0.0)
+        air = view.frame.profile
         wind = math.hypot(view.frame.wind[0], view.frame.wind[2])
-        data = self._block.data
-        data["gauge_scale"] = (2.0 / MAX_GAUGES, 2.0 / MAX_ROWS)
         wind *= max(height_share(highest - air.ground, air.reference, air.exponent), 1.0)
         wind += 2.0 * air.turbulence
+        data = self._block.data
+        data["gauge_scale"] = (2.0 / MAX_GAUGES, 2.0 / MAX_ROWS)
         data["gauge_row"] = row
-        data["gauge_water"] = landing_water(full)
+        data["gauge_water"] = water
         data["gauge_turn"] = 0.7548777 * self._count % 1.0 * 2.0 * math.pi
-        data["gauge_margin"] = SLAB * wind / _SLOWEST / min(container.shape[:2])
+        data["gauge_margin"] = SLAB * wind / slowest / min(container.shape[:2])
         self._block.upload()
         self._block.bind()
         return radii
@@ -182,12 +184,7 @@ class GaugePass:
         sums = raw[: len(slot.rows), : len(slot.gauges)].astype(float)
         for k, gauge in enumerate(slot.gauges):
             exposure = min(float(sums[0, k, 2]), 1.0)
-            areas = tuple(
-                [
-                    (key, *sums[row, k, :2].tolist(), slot.catches[row][k])
-                    for row, key in enumerate(slot.rows)
-                ]
-            )
+            areas = _joined(slot.rows, sums[:, k, :2].tolist(), [c[k] for c in slot.catches])
             reading = GaugeReading(gauge.key, slot.time, slot.seconds, exposure, areas)
             self._readings.append(reading)
 
@@ -201,6 +198,36 @@ class GaugePass:
                 array.release()
             self._block.release()
         self._ring.clear()
+
+
+def _landing(container: ContainerData, view: ViewData) -> tuple[float, float, float]:
+    """mm3 that what lands carries on average; its mean fall and that of the slowest, m/s."""
+    if container.kind == SNOW:
+        air, model = view.frame.air, view.frame.flakes.model
+        fall = snowfall(container.rate, 1.0 - air.snow_share, air.temperature, model)
+        return fall.water, fall.speed, smallest_speed(fall)
+    return landing_water(container.rate), fall_speed_of(container.rate), _SLOWEST
+
+
+def _joined(
+    rows: tuple[tuple[int, int], ...], sums: list[list[float]], catches: list[float]
+) -> tuple[tuple[int, float, float, float], ...]:
+    """What rain and snow have brought, together for each half of an area's container.
+
+    Each kind has a catch of its own; what one caught counts for as much of the other's as was
+    watched. Where one kind could not be watched, nothing was.
+    """
+    found: dict[int, tuple[int, float, float, float]] = {}
+    for (area, half), (caught, watched), catch in zip(rows, sums, catches, strict=True):
+        if half not in found:
+            found[half] = (area, caught, watched, catch)
+            continue
+        _, before, seen, first = found[half]
+        if watched > 0.0:
+            found[half] = (area, before + caught * seen / watched, seen, first)
+        else:
+            found[half] = (area, 0.0, 0.0, first)
+    return tuple(found.values())
 
 
 def _catch_radius(gauge: GaugeData, container: ContainerData, fall_speed: float) -> float:

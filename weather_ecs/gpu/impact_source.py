@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import moderngl
 
-from weather_ecs.frame import ViewData
+from weather_ecs.frame import SNOW, ViewData
 from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass, drops_used
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 
@@ -53,6 +53,8 @@ class ImpactReader:
             return
         sets = self._rain.sets(view.key)
         for container in view.containers:
+            if container.kind == SNOW:
+                continue  # snow lands silently
             drops = sets.get(container.key)
             if drops is not None and drops.alive:
                 self._rain.fill_container(container, view)

@@ -38,7 +38,7 @@ RAIN_VIEW = UniformBlock(
     ("drop_color", "vec4"),  # what a drop shows of the sky, linear
     ("veil_color", "vec4"),  # encoded
     ("fog_color", "vec4"),  # linear; 1/m times log2(e), of the air without rain and snow
-    ("fog_shown", "vec4"),  # the same colour encoded
+    ("fog_shown", "vec4"),  # the same colour encoded; m of fog overhead
     ("light_position", "vec4", MAX_LIGHTS),  # m, and reach
     ("light_color", "vec4", MAX_LIGHTS),
     ("light_count", "int"),
@@ -63,6 +63,7 @@ VEIL = UniformBlock(
     ("veil_shape", "vec4"),  # a, b, level of f inside which the rate is full
     ("veil_span", "vec4"),  # bottom, top
     ("veil_load", "vec4"),  # extinction in 1/m, distance to which the drops show it in m
+    ("veil_tint", "vec4"),  # encoded, its colour
 )
 
 # The collision heightmap of one observer.

@@ -1,33 +1,31 @@
-"""The passes of the rain: move the drops and draw their streaks."""
+"""The passes of rain and snow: move the drops and flakes, and draw them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import moderngl
 
-from weather_ecs.frame import ContainerData, ViewData
+from weather_ecs.frame import RAIN, SNOW, ContainerData, ViewData
 from weather_ecs.gpu.air_block import AirBlock
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.compute_order import ComputeOrder
 from weather_ecs.gpu.drop_set import DropSet
 from weather_ecs.gpu.impact_list import ImpactList
+from weather_ecs.gpu.kind_programs import SHELTER_UNIT as SHELTER_UNIT
+from weather_ecs.gpu.kind_programs import KindPrograms
 from weather_ecs.gpu.rain_blocks import RAIN_DRAW, RAIN_STEP
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.streak_list import CULL, StreakList
 
 GROUP = 128  # drops in a work group; also in rain_step.comp
-SHELTER_UNIT = 1
 SMALLEST_LIST, LARGEST_LIST = 4096, 16_384  # impacts; every reader goes over the whole list
 # A set that no view has used for so many draws is given back.
 _KEPT_DRAWS = 600
 # The last tenth of the drops in use fades in; also in systems/rain_view.py.
 _COUNT_FADE = 0.1
 
-DRAW = ProgramKey(vertex="streak.vert", geometry="streak.geom", fragment="streak.frag")
-COMPUTE = ProgramKey(compute="rain_step.comp")
 FIND = ProgramKey(compute="impact_find.comp")
-FEEDBACK = ProgramKey(vertex="rain_step.vert", varyings=("out_position", "out_velocity"))
 
 # How what a step has written is read: by the search for hits, and by all that comes after.
 _LISTED = moderngl.SHADER_STORAGE_BARRIER_BIT | moderngl.COMMAND_BARRIER_BIT
@@ -64,29 +62,32 @@ class RainPass:
         self._observed: dict[int, _Observed] = {}
         self._draws = 0
         self._lists = backend == "compute"
-        key = COMPUTE if backend == "compute" else FEEDBACK
-        # Without and with a collision heightmap.
-        self._steps = [shaders.program(key), shaders.program(replace(key, defines=("SHELTER",)))]
-        self._steps[1]["shelter_map"] = SHELTER_UNIT
+        self._shaders = shaders
+        self._readers: dict[str, moderngl.Program] = {}
+        self._kinds: dict[int, KindPrograms] = {}
+        self._kind(RAIN)
         self._find = shaders.program(FIND) if self._lists else None
         if self._find is not None:
             self._find["shelter_map"] = SHELTER_UNIT
-        self._draw_program = shaders.program(DRAW)
         self._order = ComputeOrder(ctx)
         self._cull = shaders.program(CULL) if self._lists else None
-        self._programs = {} if self._lists else {"streak": self._draw_program}
-        if backend == "feedback":
-            self._programs |= {"step": self._steps[0], "sheltered step": self._steps[1]}
         self._step_block = BlockBuffer(ctx, RAIN_STEP)
         self._air = AirBlock(ctx)
         self._draw_block = BlockBuffer(ctx, RAIN_DRAW)
 
     def add_reader(self, name: str, program: moderngl.Program) -> None:
-        """A program that reads drops as vertices."""
-        self._programs[name] = program
+        """A program that reads drops and flakes as vertices."""
+        self._readers[name] = program
         for seen in self._observed.values():
             for drops in seen.sets.values():
                 drops.add_reader(name, program)
+
+    def _kind(self, kind: int) -> KindPrograms:
+        """The programs of a kind of what falls, made when they are first needed."""
+        known = self._kinds.get(kind)
+        if known is None:
+            known = self._kinds[kind] = KindPrograms(self._ctx, self._shaders, kind, self._lists)
+        return known
 
     @property
     def has_lists(self) -> bool:
@@ -131,7 +132,7 @@ class RainPass:
             drops.placed = placing
         if len(seen.sets) > len(view.containers):
             alive = set(view.frame.areas["key"].tolist())
-            for key in [k for k in seen.sets if k >> 1 not in alive]:
+            for key in [k for k in seen.sets if k >> 2 not in alive]:
                 seen.sets.pop(key).release()
         self._forget()
         return moved
@@ -163,21 +164,22 @@ class RainPass:
         data["to_axis"], data["to_shape"] = container.axis, container.shape
         data["rain_dt"] = view.dt
         data["rain_law"] = container.law
-        seed = self._seed * 0x9E3779B1 + container.key * 0x85EBCA6B + drops.steps
+        seed = self._seed * 0x9E3779B1 + container.word * 0x85EBCA6B + drops.steps
         data["rain_seed"] = seed & 0xFFFFFFFF
         data["rain_count"] = count
         data["rain_fresh"] = 0 if drops.placed is None else drops.alive
         data["rain_time"] = view.frame.time
         data["impact_capacity"] = impacts.capacity if impacts is not None else 0
         self._step_block.upload()
+        kind = self._kind(container.kind)
+        kind.use(container, view)
         if self._lists:
             drops.births.bind_to_storage_buffer(0)
             drops.states[0].bind_to_storage_buffer(1)
-            lists = impacts if sheltered else None
+            lists = impacts if sheltered and container.kind != SNOW else None
             if lists is not None:
                 lists.begin_step()
-            kernel = self._steps[sheltered]
-            kernel.run((count + GROUP - 1) // GROUP)  # type: ignore[attr-defined]
+            kind.steps[sheltered].run((count + GROUP - 1) // GROUP)
             if lists is not None:
                 self._order.after(_LISTED)
                 lists.find(self._find)
@@ -198,28 +200,34 @@ class RainPass:
         for container in view.containers:
             drops = seen.sets[container.key]
             self.fill_container(container, view)
+            kind = self._kind(container.kind)
+            kind.use(container, view, drawing=True)
             count = min(drops_used(container, drops), drops.alive)
             if self._cull is None:
                 drops.array("streak").render(moderngl.POINTS, vertices=count)
                 continue
             if drops.streaks is None:
-                drops.streaks = StreakList(self._ctx, drops, self._draw_program)
+                drops.streaks = StreakList(self._ctx, drops, kind.draw)
             drops.streaks.draw(self._cull, count, self._order)
 
     def fill_container(self, container: ContainerData, view: ViewData) -> None:
         """Upload the block RainDraw of one container."""
-        look = view.frame.look
+        look, snow = view.frame.look, view.frame.flakes
         data = self._draw_block.data
         data["container_axis"], data["container_shape"] = container.axis, container.shape
         data["area_axis"], data["area_shape"] = container.area_axis, container.area_shape
         data["drop_law"] = container.law
         # A far drop is drawn larger, not fainter: of a shaft it is the grain.
-        density = look.density * min(container.size_scale**2, 16.0)
+        density = min(container.size_scale**2, 16.0) * container.cover
+        if container.kind == SNOW:
+            density *= snow.density
+            shown = (snow.size_maximum, container.size_scale, snow.size, snow.opacity)
+        else:
+            density *= look.density
+            shown = (look.size_maximum, container.size_scale, look.width, look.opacity)
         fade = 1.0 / max(_COUNT_FADE * container.count, 1.0)
         data["drop_load"] = (container.load, container.count, fade, density)
-        data["drop_look"] = (
-            look.size_maximum, container.size_scale, look.width, look.opacity,
-        )  # fmt: skip
+        data["drop_look"] = shown
         self._draw_block.upload()
 
     def _drops(self, seen: _Observed, container: ContainerData) -> DropSet:
@@ -228,7 +236,8 @@ class RainPass:
             drops.release()
             drops = None
         if drops is None:
-            drops = DropSet(self._ctx, container.births, self._programs, not self._lists)
+            programs = self._kind(container.kind).readers | self._readers
+            drops = DropSet(self._ctx, container.births, programs, not self._lists)
             seen.sets[container.key] = drops
         return drops
 
@@ -256,6 +265,8 @@ class RainPass:
         """Give every buffer back; twice does no harm."""
         for observer in list(self._observed):
             self.forget(observer)
+        for kind in self._kinds.values():
+            kind.release()
         self._draw_block.release()
         self._step_block.release()
         self._air.release()

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import moderngl
+import numpy as np
+from numpy.typing import NDArray
 
-from weather_ecs.frame import ViewData
+from weather_ecs.frame import FrameData, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.flake_blocks import flake_light
 from weather_ecs.gpu.rain_blocks import VEIL
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.gpu.view_block import encode, veil_light
 
 DRAW = ProgramKey(vertex="veil.vert", fragment="veil.frag")
 DEPTH_UNIT = 0
@@ -28,11 +32,14 @@ class VeilPass:
         depth.use(DEPTH_UNIT)
         self._block.bind()
         data = self._block.data
+        rain = encode(veil_light(view.frame.sky))
         for veil in view.veils:
             data["veil_axis"] = veil.axis
             data["veil_shape"] = (*veil.shape, 0.0)
             data["veil_span"] = (*veil.span, 0.0, 0.0)
             data["veil_load"] = (veil.extinction, veil.shown, 0.0, 0.0)
+            snow = veil.snow
+            data["veil_tint"][:3] = encode(mixed(view.frame, snow)) if snow > 0.0 else rain
             self._block.upload()
             self._array.render(moderngl.TRIANGLE_STRIP, vertices=14)
 
@@ -40,3 +47,10 @@ class VeilPass:
         """Give everything back; twice does no harm."""
         self._array.release()
         self._block.release()
+
+
+def mixed(frame: FrameData, snow: float) -> NDArray:
+    """Colour of a veil of which a share is snow, linear RGB: snow is white in the same light."""
+    sun = np.array(frame.sky.sun_color) * 0.22
+    white = frame.flakes.brightness * flake_light(frame.sky) + sun
+    return (1.0 - snow) * veil_light(frame.sky) + snow * white

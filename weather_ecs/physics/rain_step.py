@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 
 from weather_ecs.physics.container import Container
 from weather_ecs.physics.shelter import ShelterMap
+from weather_ecs.physics.snow_step import Flakes, flake_velocities
 from weather_ecs.physics.turbulence import AirFlow, air_velocity
+from weather_ecs.physics.words import hash_unit, hash_word
 
 # As in shaders/landed.glsl.
 LANDED = 8192.0
@@ -37,6 +39,7 @@ class Step:
     seed: int
     fresh: int  # drops from here on begin anew
     flow: AirFlow | None = None  # of the air; None: `wind` everywhere
+    flakes: Flakes | None = None  # of snow; None: drops
 
 
 def axis_of(container: Container) -> tuple[float, float, float, float]:
@@ -54,17 +57,6 @@ def law_of(rain_rate: float) -> tuple[float, float, float, float]:
     """(slope in 1/mm, 1 - exp(-5.5 slope), 0, 0) of Marshall and Palmer's distribution."""
     slope = 4.1 * max(rain_rate, 1e-3) ** -0.21
     return (slope, -math.expm1(-5.5 * slope), 0.0, 0.0)
-
-
-def hash_word(x: NDArray[np.uint32]) -> NDArray[np.uint32]:
-    with np.errstate(over="ignore"):
-        state = x.astype(U) * U(747796405) + U(2891336453)
-        word = ((state >> ((state >> U(28)) + U(4))) ^ state) * U(277803737)
-        return (word >> U(22)) ^ word
-
-
-def hash_unit(x: NDArray[np.uint32]) -> NDArray[np.float32]:
-    return (hash_word(x) >> U(8)).astype(F) * F(1.0 / 16777216.0)
 
 
 def resettle(ids: NDArray[np.uint32], s: NDArray, seed: int) -> NDArray:
@@ -130,11 +122,18 @@ def fall_speeds(diameter: NDArray) -> NDArray:
     return np.maximum(F(9.65) - F(10.3) * np.exp(F(-0.6) * diameter), F(0.0)).astype(F)
 
 
-def _drift(p: NDArray, fall: NDArray, s: Step) -> NDArray[np.float32]:
+def _own_velocities(birth: NDArray, ids: NDArray[np.uint32], s: Step) -> NDArray[np.float32]:
+    """Velocities in still air, (n, 3): drops fall, flakes sway as well."""
+    if s.flakes is not None:
+        return flake_velocities(ids, birth[:, 3], s.law, s.flakes)
+    own = np.zeros((len(birth), 3), F)
+    own[:, 1] = -fall_speeds(diameters(birth[:, 3], s.law))
+    return own
+
+
+def _drift(p: NDArray, own: NDArray, s: Step) -> NDArray[np.float32]:
     """Velocities in the air's motion at p, (n, 3)."""
-    drift = air_velocity(p, s.flow or AirFlow(s.wind[:3]))
-    drift[:, 1] -= fall
-    return drift
+    return air_velocity(p, s.flow or AirFlow(s.wind[:3])) + own
 
 
 def _follow(at: NDArray, drift: NDArray, own: NDArray, s: Step) -> tuple[NDArray, NDArray]:
@@ -182,8 +181,8 @@ def step(
     LANDED added to the height; NO_IMPACT for its height where it came in under cover.
     """
     ids = np.arange(len(birth), dtype=U)
-    fall = fall_speeds(diameters(birth[:, 3], s.law))
-    drift = _drift(p, fall, s)
+    own = _own_velocities(birth, ids, s)
+    fall, drift = -own[:, 1], _drift(p, own, s)
     begins = ids >= s.fresh
     landed = ~begins & (v[:, 1] > 1024.0)
     motion = np.where((landed | begins)[:, None], drift, v)
@@ -200,10 +199,10 @@ def step(
     p = np.where(begins[:, None], first, p)
     elsewhere |= begins
     landed &= ~elsewhere
-    motion = np.where(elsewhere[:, None], _drift(p, fall, s), motion)
+    motion = np.where(elsewhere[:, None], _drift(p, own, s), motion)
     v = np.where(landed[:, None], held, motion)
     if shelter is not None:
-        v = _land(shelter, before, p, v, landed, elsewhere)
+        v = _land(shelter, before, p, v, landed, elsewhere, s.flakes is None)
     return p.astype(F), v.astype(F)
 
 
@@ -214,13 +213,14 @@ def _land(
     v: NDArray,
     landed: NDArray,
     elsewhere: NDArray,
+    kept_hits: bool,
 ) -> NDArray:
-    """Velocities, with the place of the hit where a drop has met the surface."""
+    """Velocities, with the place of the hit where a drop has met the surface; flakes keep none."""
     m, m0 = shelter.places(p), shelter.places(before)
     lands = ~landed & shelter.knows(m) & (shelter.below_texel(m) > 0.0)
     was_above = ~elsewhere & shelter.knows(m0) & (shelter.below_texel(m0) <= 0.0)
     hit, true = shelter.meets(before, p)
-    hits = lands & was_above & true
+    hits = lands & was_above & true & kept_hits
     kept = np.stack([p[:, 0], np.full(len(p), NO_IMPACT, F), p[:, 2]], axis=1)
     kept = np.where(hits[:, None], hit + np.asarray([0.0, LANDED, 0.0], F), kept)
     return np.where(lands[:, None], kept, v)

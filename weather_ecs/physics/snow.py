@@ -41,8 +41,8 @@ class Habit(IntEnum):
     STAR = 2  # stellar crystals and dendrites
 
 
-# By habit: diameter over the melted one, and m/s. A dendrite of 3.26 mm weighs 0.043 mg and falls at
-# 0.31 m/s, needles and plates at about 0.50 (Nakaya and Terada 1935); a plate of 1 mm weighs
+# By habit: diameter over the melted one, and m/s. A dendrite of 3.26 mm weighs 0.043 mg and falls
+# at 0.31 m/s, needles and plates at about 0.50 (Nakaya and Terada 1935); a plate of 1 mm weighs
 # 0.026 mg (Mitchell 1996).
 CRYSTAL_SIZE = (2.7, 3.0, 7.5)
 CRYSTAL_SPEED = (0.50, 0.50, 0.31)
@@ -84,7 +84,7 @@ def snow_extinction(rate: ArrayLike) -> FloatArray:
 
 
 def snow_size_distribution(diameter_mm: ArrayLike, rate: ArrayLike) -> FloatArray:
-    """Flakes per cubic metre and millimetre of melted diameter (Gunn and Marshall 1958); 0 for 0."""
+    """Flakes per cubic metre and millimetre of melted diameter (Gunn and Marshall 1958)."""
     diameter, falls = floats("diameter_mm", diameter_mm, 0.0), floats("rate", rate, 0.0)
     there = np.where(falls > 0.0, falls, 1.0)
     with np.errstate(over="ignore", invalid="ignore"):

@@ -14,6 +14,9 @@
 #include "drop_weight.glsl"
 #include "landed.glsl"
 #include "turbulence.glsl"
+#ifdef SNOW
+#include "snow_law.glsl"
+#endif
 #include <block:RainStep>
 #ifdef SHELTER
 #include "shelter.glsl"
@@ -142,8 +145,13 @@ bool find_hit(vec3 before, vec3 p, inout vec3 v, out vec3 normal)
 bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
 {
     float s = birth.z;
-    float fall = drop_speed(drop_diameter(birth.w, rain_law));
-    vec3 drift = air_velocity(p) - vec3(0.0, fall, 0.0);
+#ifdef SNOW
+    vec3 own = flake_velocity(id, birth.w, rain_law);
+#else
+    vec3 own = vec3(0.0, -drop_speed(drop_diameter(birth.w, rain_law)), 0.0);
+#endif
+    float fall = -own.y;
+    vec3 drift = air_velocity(p) + own;
     bool elsewhere = id >= rain_fresh;
     bool landed = !elsewhere && has_landed(v);
     vec3 motion = landed || elsewhere ? drift : v;
@@ -159,7 +167,7 @@ bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
     }
     if (elsewhere) {
         landed = false;
-        motion = air_velocity(p) - vec3(0.0, fall, 0.0);
+        motion = air_velocity(p) + own;
     }
 #ifdef SHELTER
     vec3 m = shelter_place(p);

@@ -3,7 +3,8 @@
 // here they would hold up all the others of their group.
 layout(local_size_x = 128) in;
 #include "drop_step.glsl"
-#ifdef SHELTER
+// Snow lands silently: a flake that has come below the surface is gone, and nothing is listed.
+#if defined(SHELTER) && !defined(SNOW)
 #include "impact_counts.glsl"
 
 layout(std430, binding = 4) writeonly buffer Sunk { uvec4 sunk[]; };  // place before, and drop
@@ -27,7 +28,7 @@ void main()
     drops[k + 3u] = v.x;
     drops[k + 4u] = v.y;
     drops[k + 5u] = v.z;
-#ifdef SHELTER
+#if defined(SHELTER) && !defined(SNOW)
     if (sinks) {
         uint at = atomicAdd(sunk_count, 1u);
         if (at >= impact_capacity) {

@@ -12,7 +12,7 @@ void main()
     vec3 p = in_position;
     vec3 v = in_velocity;
     bool sinks = step_drop(uint(gl_VertexID), in_birth, p, v);
-#ifdef SHELTER
+#if defined(SHELTER) && !defined(SNOW)
     vec3 normal;
     if (sinks) find_hit(in_position, p, v, normal);
 #endif

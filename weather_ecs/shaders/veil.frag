@@ -65,7 +65,7 @@ void main()
     float half_chord = sqrt(outer);
     float near = max(t0, -half_chord);
     float along = near + (min(t1, half_chord) - near) / (2.0 + optical);
-    vec3 shown = mix(fog_shown.rgb, veil_color.rgb, fog_left((along + middle) * per_t));
+    vec3 shown = mix(fog_shown.rgb, veil_tint.rgb, fog_left((along + middle) * per_t));
     // A pixel's own grain, under one step of an 8-bit target, keeps the soft ramp from banding.
     float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
     color = vec4(shown + (grain - 0.5) * (1.6 / 255.0) / max(opacity, 0.05), opacity);

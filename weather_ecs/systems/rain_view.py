@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
 
-from weather_ecs.frame import ContainerData, DropLook, FrameData, VeilData, ViewData
+from weather_ecs.frame import SNOW, ContainerData, FrameData, VeilData, ViewData
 from weather_ecs.physics.camera import Camera
 from weather_ecs.physics.container import (
     Area,
@@ -21,11 +20,9 @@ from weather_ecs.physics.container import (
     ContainerSettings,
     births,
     place,
-    size_factor,
-    weight_shape,
 )
-from weather_ecs.physics.drops import drop_density, extinction
-from weather_ecs.physics.rain_step import axis_of, law_of, shape_of
+from weather_ecs.physics.rain_step import axis_of, shape_of
+from weather_ecs.systems.falls import Fall, falls, shown_distance, snow_shown_distance
 
 # A drop count's last tenth fades in, so that a changing count never makes a drop appear at once.
 COUNT_FADE = 0.1
@@ -151,15 +148,22 @@ class RainView:
         data: list[ContainerData] = []
         for k in shown:
             count = max(settings.drops * settings.budget * placed[k].importance / total, 1.0)
-            data.extend(self._data(k, rows[k], placed[k].container, count, settings.drops))
+            for fall in falls(float(rows[k]["rain_rate"]), frame.air, frame.flakes):
+                part = max(count * fall.part, 1.0)
+                data.extend(self._data(k, rows[k], placed[k].container, fall, part, settings.drops))
         return data
 
     def _data(
-        self, key: int, row: np.void, container: Container, count: float, capacity: int
+        self,
+        key: int,
+        row: np.void,
+        container: Container,
+        fall: Fall,
+        count: float,
+        capacity: int,
     ) -> list[ContainerData]:
-        rate = float(row["rain_rate"])
         forward, lateral = container.reach
-        load = _drop_density(rate) * container.height * math.pi * forward * lateral
+        load = fall.density * container.height * math.pi * forward * lateral
         load /= 2.0 * count * (1.0 - 0.5 * COUNT_FADE)
         h = float(row["heading"])
         radii = row["radii"].tolist()
@@ -170,33 +174,37 @@ class RainView:
             halves.append((1, (axis[0], axis[1], -axis[2], -axis[3])))
         return [
             ContainerData(
-                key=2 * key + rear,
+                key=4 * key + 2 * fall.kind + rear,
                 axis=half,
                 shape=shape_of(container),
                 area_axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
                 area_shape=(*radii, min(float(row["soft_edge"]), radii[1]), float(row["ceiling"])),
-                law=law_of(rate),
+                law=fall.law,
                 load=load,
                 count=count,
                 size_scale=container.size_scale,
-                births=self._birth_records(capacity, rear),
+                births=self._birth_records(capacity, 2 * fall.kind + rear),
+                kind=fall.kind,
+                rate=fall.rate,
+                cover=fall.cover,
             )
             for rear, half in halves
         ]
 
-    def _birth_records(self, capacity: int, rear: int) -> np.ndarray:
-        record = self._births.get((capacity, rear))
+    def _birth_records(self, capacity: int, number: int) -> np.ndarray:
+        record = self._births.get((capacity, number))
         if record is None:
             self._births = {k: r for k, r in self._births.items() if k[0] == capacity}
-            record = births(capacity, np.random.default_rng((self._seed, capacity, rear)))
+            record = births(capacity, np.random.default_rng((self._seed, capacity, number)))
             record.setflags(write=False)
-            self._births[capacity, rear] = record
+            self._births[capacity, number] = record
         return record
 
     def _veils(
         self, frame: FrameData, seen: _Observed, containers: list[ContainerData]
     ) -> list[VeilData]:
-        loads = {c.key >> 1: c for c in containers}
+        counts = {(c.area, c.kind): c.count for c in containers}
+        look = frame.look
         veils = []
         for row in frame.areas:
             rate, key = float(row["rain_rate"]), int(row["key"])
@@ -207,17 +215,29 @@ class RainView:
             a, b = row["radii"].tolist()
             soft = min(float(row["soft_edge"]), b)
             h, ceiling = float(row["heading"]), float(row["ceiling"])
-            shown = 0.0
-            if key in loads:
-                near = max(0.0, 1.0 - container.distance / frame.look.reach)
-                shown = near * shown_distance(frame.look, round(rate, 1), round(loads[key].count))
+            shown = lost = snow = 0.0
+            near = max(0.0, 1.0 - container.distance / look.reach)
+            for fall in falls(rate, frame.air, frame.flakes):
+                count = round(counts.get((key, fall.kind), 0.0))
+                if fall.kind == SNOW:
+                    snow = fall.part
+                    lost += fall.extinction * frame.flakes.veil
+                    if count and near:
+                        far = snow_shown_distance(look, frame.flakes, fall, count)
+                        shown += near * fall.part * far
+                else:
+                    lost += fall.extinction * look.veil
+                    if count and near:
+                        far = shown_distance(look, round(fall.rate, 1), count)
+                        shown += near * fall.part * far
             veils.append(
                 VeilData(
                     axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
                     shape=(a, b, min((1.0 - soft / b) ** 2, 0.9999)),
                     span=(min(container.bottom, seen.position[1]) - 300.0, ceiling),
-                    extinction=_extinction(rate) * frame.look.veil,
+                    extinction=lost,
                     shown=shown,
+                    snow=snow,
                 )
             )
         return veils
@@ -244,36 +264,6 @@ def _air_run(
     return (
         x + frame.wind[0] * dt, z + frame.wind[2] * dt, turned + frame.profile.turbulence * dt
     )  # fmt: skip
-
-
-@lru_cache(maxsize=256)
-def _drop_density(rain_rate: float) -> float:
-    return float(drop_density(rain_rate))
-
-
-@lru_cache(maxsize=256)
-def _extinction(rain_rate: float) -> float:
-    return float(extinction(rain_rate))
-
-
-@lru_cache(maxsize=256)
-def shown_distance(look: DropLook, rain_rate: float, count: int) -> float:
-    """Distance (m) at which the share of the extinction that the drops show has fallen to 0.
-
-    The share falls about linearly; the line has the integral that the share of a drop of 1.5 mm
-    has: what a streak can show is its area times its greatest opacity.
-    """
-    d = np.linspace(0.01, 0.99, 33)
-    diameter = 1.5e-3
-    width = diameter * size_factor(d, look.size_maximum) * look.width
-    length = 6.0 * look.exposure
-    load = float(drop_density(rain_rate)) * look.height * math.pi * look.reach**2
-    load *= look.density / (2.0 * max(count, 1))
-    wanted = load * d / weight_shape(d) * 0.7854 * diameter**2 / (width * (length + width))
-    share = np.minimum(look.opacity / np.maximum(wanted, 1e-9), 1.0)
-    # Near its rim the container thins out, whatever a streak could show.
-    share *= np.minimum((1.0 - d) * 4.0, 1.0)
-    return float(2.0 * share.mean() * look.reach)
 
 
 def _in_view(areas: np.ndarray, camera: Camera) -> np.ndarray:

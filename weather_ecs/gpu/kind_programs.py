@@ -1,0 +1,64 @@
+"""The programs that move and draw one kind of what falls: drops or flakes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import moderngl
+
+from weather_ecs.frame import SNOW, ContainerData, ViewData
+from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.flake_blocks import SNOW as SNOW_BLOCK
+from weather_ecs.gpu.flake_blocks import fill_snow
+from weather_ecs.gpu.flake_texture import flake_texture
+from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+
+STREAK = ProgramKey(vertex="streak.vert", geometry="streak.geom", fragment="streak.frag")
+FLAKE = ProgramKey(vertex="flake.vert", geometry="flake.geom", fragment="flake.frag")
+COMPUTE = ProgramKey(compute="rain_step.comp")
+FEEDBACK = ProgramKey(vertex="rain_step.vert", varyings=("out_position", "out_velocity"))
+SHELTER_UNIT = 1
+PICTURES_UNIT = 0
+
+
+class KindPrograms:
+    """Made when the first container of its kind comes; snow brings its pictures and its block."""
+
+    def __init__(
+        self, ctx: moderngl.Context, shaders: ShaderLoader, kind: int, compute: bool
+    ) -> None:
+        key, defines = (COMPUTE if compute else FEEDBACK), ("SNOW",) if kind == SNOW else ()
+        # Without and with a collision heightmap.
+        self.steps: list[Any] = [
+            shaders.program(replace(key, defines=defines)),
+            shaders.program(replace(key, defines=(*defines, "SHELTER"))),
+        ]
+        if "shelter_map" in self.steps[1]:
+            self.steps[1]["shelter_map"] = SHELTER_UNIT
+        self.draw = shaders.program(FLAKE if kind == SNOW else STREAK)
+        # Those that read drops as vertices, by name.
+        self.readers: dict[str, moderngl.Program] = {} if compute else {"streak": self.draw}
+        if not compute:
+            self.readers |= {"step": self.steps[0], "sheltered step": self.steps[1]}
+        self._block: BlockBuffer | None = None
+        if kind == SNOW:
+            self._block = BlockBuffer(ctx, SNOW_BLOCK)
+            self._pictures = flake_texture(ctx)
+            self.draw["flake_pictures"] = PICTURES_UNIT
+
+    def use(self, container: ContainerData, view: ViewData, drawing: bool = False) -> None:
+        """Bind what the kind has of its own, for the step or for drawing."""
+        if self._block is not None:
+            fill_snow(self._block, container, view)
+            self._block.upload()
+            self._block.bind()
+            if drawing:
+                self._pictures.use(PICTURES_UNIT)
+
+    def release(self) -> None:
+        """Give back what is not the shader loader's; twice does no harm."""
+        if self._block is not None:
+            self._block.release()
+            self._pictures.release()
+            self._block = None

@@ -1,0 +1,101 @@
+// What one flake looks like: its place, size, opacity and picture, and how far it goes during the
+// exposure. Its area times its opacity is what the real flakes cover that it stands for.
+#include "snow_law.glsl"
+#include "drop_weight.glsl"
+#include "landed.glsl"
+#include "flake_light.glsl"
+#include "encode.glsl"
+#include "fog.glsl"
+#include <block:RainView>
+
+in vec3 in_position;
+in vec3 in_velocity;
+in vec4 in_birth;
+
+out vec4 vs_head;   // clip space
+out vec4 vs_path;   // pixels: way during the exposure, radius; layer. Radius 0: nothing to draw
+out vec4 vs_color;  // encoded, with opacity
+out vec4 vs_turn;   // cosine and sine of the turn in the picture's plane, 1 / tilt, bias of level
+
+const float SMALLEST = 1.7;  // pixels, diameter below which a flake gets fainter instead
+const float PICTURE = 64.0;  // texels on a side
+const float FOCUS = 6.0;     // m; what is closer gets softer
+// First layer of each kind and how many; as gpu/flake_texture.py.
+const ivec2 PLATES = ivec2(0, 12);
+const ivec2 NEEDLES = ivec2(12, 6);
+const ivec2 STARS = ivec2(18, 28);
+const ivec2 CLUMPS = ivec2(46, 16);
+const ivec2 WET = ivec2(62, 6);
+
+int flake_layer(uint word, float diameter, int habit, float wet)
+{
+    // Which of the pictures, and whether it looks like a clump or has melted, by other bits each.
+    uint pick = hash_word(word);
+    float u = float(pick & 1023u) * (1.0 / 1024.0);
+    float chance = float((pick >> 10u) & 1023u) * (1.0 / 1024.0);
+    float melts = float(pick >> 22u) * (1.0 / 1024.0);
+    ivec2 kind = habit == 0 ? PLATES : (habit == 1 ? NEEDLES : STARS);
+    if (chance < flake_clumped(diameter)) kind = CLUMPS;
+    if (melts < wet * 1.6) kind = WET;
+    if (snow_motion.w == LIU_TONG) kind = STARS;
+    return kind.x + int(u * float(kind.y));
+}
+
+void main()
+{
+    vs_head = vs_path = vs_color = vs_turn = vec4(0.0);
+    gl_Position = vec4(0.0);
+    if (has_landed(in_velocity)) return;
+    vec3 p = in_position;
+    vec4 head = view_projection * vec4(p, 1.0);
+    if (head.w < 0.15 || any(greaterThan(abs(head.xy), head.ww * 1.05 + 0.05))) return;
+
+    float d;
+    float weight = drop_weight(p, in_birth.z, gl_VertexID, d);
+    if (weight <= 0.0) return;
+    float rise = (p.y - container_shape.z) / container_shape.w;
+    weight *= clamp((1.0 - rise) * 8.0, 0.0, 1.0) * step(p.y, area_shape.w);
+
+    uint word = flake_word(uint(gl_VertexID));
+    float diameter = flake_diameter(in_birth.w, drop_law);
+    int habit = flake_habit(word, drop_law);
+    float scale = (1.0 + (drop_look.x - 1.0) * d * d) * drop_look.y;
+    float real = flake_size(diameter, habit, drop_law) * 1e-3;
+    float size = real * drop_look.z;
+    if (snow_motion.w == LIU_TONG) {
+        real = size = 0.05 + 0.01 * (float((word >> 5u) & 1023u) * (2.0 / 1023.0) - 1.0);
+    }
+    float covered = 0.785398 * real * real * weight * drop_load.w;
+    size *= scale;
+
+    // Relative to the camera, on the picture.
+    vec3 path = (in_velocity - camera_velocity.xyz) * camera_velocity.w;
+    vec4 tail = head - view_projection * vec4(path, 0.0);
+    if (tail.w < 0.1) return;
+    float per_metre = camera_position.w / head.w;
+    vec2 way = (head.xy / head.w - tail.xy / tail.w) * 0.5 * view_size.xy;
+    way *= drop_look.y;
+
+    float pixels = size * per_metre;
+    float soft = snow_look.x * max(1.0 - head.w / FOCUS, 0.0) * per_metre;
+    float shown = max(pixels + soft, SMALLEST);
+    float smear = length(way);
+    // The disc's own area over that of what is drawn: the disc, blurred and drawn out.
+    float spread = pixels * pixels / (shown * (shown + 1.273 * smear));
+    float opacity = min(covered / (0.785398 * size * size), drop_look.w) * min(spread * 1.25, 1.0);
+    opacity *= smoothstep(0.2, 0.7, head.w);
+    if (opacity < 0.004) return;
+
+    float turn = float(word >> 26u) * 0.0982 + view_time.x * (float((word >> 3u) & 31u) - 15.5) * 0.06;
+    float swing = fract((30.0 + float((word >> 8u) & 63u)) * snow_motion.y * 0.5);
+    float tilt = mix(0.62 + 0.38 * cos(6.2831853 * swing), 1.0, flake_clumped(diameter) * 0.7);
+    tilt = max(tilt, 0.3);
+    vs_head = head;
+    vs_path = vec4(way, 0.5 * shown, flake_layer(word, diameter, habit, drop_law.z));
+    vs_turn = vec4(cos(turn), sin(turn), 1.0 / tilt,
+                   log2(PICTURE / shown) + log2(1.0 + (soft + 0.7 * smear) / max(pixels, 1.0)));
+
+    vec3 ray = p - camera_position.xyz;
+    float away = length(ray);
+    vs_color = vec4(encode(in_fog(flake_light(p, ray / away), away)), opacity);
+}
