@@ -12,6 +12,7 @@ from weather_ecs.frame import GaugeReading, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.depth import DepthCopy
+from weather_ecs.gpu.fog_pass import FogPass
 from weather_ecs.gpu.gauge_pass import GaugePass
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
@@ -94,6 +95,7 @@ class Renderer:
         self._ripples = keep(RipplePass(ctx, shaders, rain))
         self._gauges = keep(GaugePass(ctx, shaders, rain))
         self._wetness = keep(WetnessPass(ctx, gl, shaders))
+        self._fog = keep(FogPass(ctx, shaders))
         self._veil = keep(VeilPass(ctx, shaders))
         self._view_block = keep(BlockBuffer(ctx, RAIN_VIEW))
         self._shelter_block = keep(BlockBuffer(ctx, SHELTER))
@@ -142,7 +144,8 @@ class Renderer:
         self.stats = {"containers": len(view.containers)}
         wet_map = self._wetness.needs_map(view)
         wets = wet_map or self._wetness.needs_update(view)
-        if not (view.containers or view.veils or view.frame.ripples or wets):
+        fog = self._fog.draws(view)
+        if not (view.containers or view.veils or view.frame.ripples or wets or fog):
             return
         with self._guard as guard:
             viewport = guard.viewport
@@ -169,6 +172,7 @@ class Renderer:
             if wets:
                 self._wetness.update(view, self._maps.get(view.key) if sheltered else None)
             guard.bind_framebuffer()
+            self._draw_fog(view)
             self._draw_ripples(view)
             self._draw_veils(view)
             self._draw_splashes(view, sheltered)
@@ -216,6 +220,14 @@ class Renderer:
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
         self._ripples.draw(view, depth)
+
+    def _draw_fog(self, view: ViewData) -> None:
+        if not self._fog.draws(view):
+            return
+        depth = self._copy_depth()
+        self._ctx.enable_only(moderngl.BLEND)
+        self._gl.glDepthMask(0)
+        self._fog.draw(view, depth)
 
     def _draw_veils(self, view: ViewData) -> None:
         if not view.veils:

@@ -55,7 +55,7 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     data["veil_color"][:3] = encode(veil_light(sky))
     fog = view.frame.fog
     data["fog_color"] = (*fog.color, fog.extinction * LOG2_E)
-    data["fog_shown"][:3] = encode(np.array(fog.color))
+    data["fog_shown"] = (*encode(np.array(fog.color)).tolist(), fog.depth)
     _fill_lights(block, view)
 
 

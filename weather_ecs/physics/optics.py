@@ -14,6 +14,8 @@ from .snow import snow_extinction
 CONTRAST = 3.912  # ln 50: Koschmieder, an object is seen down to 2 % of its contrast
 CLEAR_VISIBILITY = 50_000.0  # m, in clean air
 LEAST_VISIBILITY = 1.0  # m, the thickest fog there is
+EARTH = 6.371e6  # m, radius
+DARK = 0.02  # light of things for which blending encoded light is right, over the fog's
 CLEAR = CONTRAST / CLEAR_VISIBILITY  # 1/m
 _RAIN = float(extinction(1.0))  # 1/m at 1 mm/h
 _RAIN_POWER = 0.63  # three times the 0.21 of Marshall and Palmer's slope
@@ -64,3 +66,25 @@ def air_extinction(visibility: float) -> float:
 def falling_extinction(rain_rate: float, snow_rate: float) -> float:
     """Extinction (1/m) of rain and snow (mm/h of water) at one point; nothing is checked."""
     return float(_RAIN * rain_rate**_RAIN_POWER + _SNOW * snow_rate)
+
+
+def layer_path(elevation_sine: ArrayLike, depth: float) -> FloatArray:
+    """Metres of a layer `depth` m deep above the eye that a ray of this elevation goes through.
+
+    On a round Earth, so that it ends at the horizon too: depth / sqrt(sine^2 + 2 depth / radius);
+    rays downwards count as level.
+    """
+    sine = np.clip(np.asarray(elevation_sine, np.float64), 0.0, 1.0)
+    return depth / np.sqrt(sine * sine + max(2.0 * depth / EARTH, 1e-9))
+
+
+def overlay_opacity(factor: ArrayLike) -> FloatArray:
+    """Opacity with which fog is blended over a picture, where `factor` of its light is left.
+
+    The picture holds light encoded by a power of 2.2, and blending it as it stands would leave dark
+    things, which fog changes most, twice too dark. This one is right for things of 2 % of the fog's
+    light (with a root for the power, which costs a shader less) and within 0.1 of it for others.
+    """
+    covered = 1.0 - np.asarray(factor, np.float64)
+    dark = math.sqrt(DARK)
+    return np.asarray((np.sqrt(DARK + (1.0 - DARK) * covered) - dark) / (1.0 - dark))
