@@ -16,8 +16,8 @@ from weather_ecs.components import PointLight, RainArea, Sun, Wind
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.frame import AREA_DTYPE, FrameData
 from weather_ecs.physics.ellipse import edge_factor, implicit
-from weather_ecs.physics.optics import visibility_in_rain
-from weather_ecs.sampling import CLEAR_VISIBILITY, SampleField, luminance
+from weather_ecs.physics.optics import CLEAR_VISIBILITY, visibility_in_rain
+from weather_ecs.sampling import SampleField, luminance
 
 
 @pytest.fixture(autouse=True)
@@ -81,12 +81,14 @@ def test_the_fields_of_a_sample_in_clear_air(weather):
         "snow_depth",
         "temperature",
         "light",
+        "humidity",
     )
     assert got.rain_rate == got.snow_rate == got.wetness == got.snow_depth == 0.0
     assert got.sheltered is False
     assert got.wind == (0.0, 0.0, 0.0)
     assert got.visibility == pytest.approx(CLEAR_VISIBILITY)
-    assert got.temperature == 15.0
+    assert got.temperature == pytest.approx(15.0 - 2 * 6.5e-3)
+    assert got.humidity == 0.8
     assert got.light > 0.5
 
 

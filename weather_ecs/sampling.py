@@ -1,7 +1,7 @@
 """`Sample`: the weather at one place, for the game's own rules; plain numbers, no OpenGL.
 
-The formulas are those of `physics.drops.extinction` and `physics.optics`, written for one point at
-a time: a game asks for thousands of points a frame.
+The formulas are those of `physics.optics` and `physics.phase`, written for one point at a time: a
+game asks for thousands of points a frame.
 """
 
 from __future__ import annotations
@@ -9,16 +9,11 @@ from __future__ import annotations
 from typing import NamedTuple, Protocol
 
 from weather_ecs.frame import FrameData
-from weather_ecs.physics.drops import extinction
-from weather_ecs.physics.optics import CONTRAST
+from weather_ecs.physics.optics import CONTRAST, falling_extinction
+from weather_ecs.physics.phase import share_at, temperature_at
 from weather_ecs.physics.rain_field import RainField
+from weather_ecs.physics.wind import wind_at
 
-CLEAR_VISIBILITY = 50_000.0  # m, in clean air
-TEMPERATURE = 15.0  # degrees Celsius, the standard atmosphere at sea level
-
-_CLEAR = CONTRAST / CLEAR_VISIBILITY  # 1/m
-_RAIN = float(extinction(1.0))  # 1/m at 1 mm/h
-_RAIN_POWER = 0.63  # three times the 0.21 of Marshall and Palmer's slope
 _RED, _GREEN, _BLUE = 0.2126, 0.7152, 0.0722  # luminance of linear RGB (Rec. 709)
 
 
@@ -32,8 +27,9 @@ class Sample(NamedTuple):
     visibility: float  # m, through fog, rain and snow as they are there
     wetness: float  # mm of water on level ground there; under shelter 0
     snow_depth: float  # m
-    temperature: float  # degrees Celsius
+    temperature: float  # degrees Celsius; 6.5 less for a kilometre up
     light: float  # luminance of the light on a level surface; about 1 on a bright day
+    humidity: float  # 0 to 1, relative
 
 
 class Shelter(Protocol):
@@ -51,12 +47,24 @@ class Ground(Protocol):
 class SampleField:
     """One `FrameData`, prepared to answer for any point."""
 
-    __slots__ = ("_day_light", "_ground", "_lights", "_rain", "_shelter", "_time", "_wind")
+    __slots__ = (
+        "_air",
+        "_day_light",
+        "_fog",
+        "_ground",
+        "_lights",
+        "_profile",
+        "_rain",
+        "_shelter",
+        "_time",
+        "_wind",
+    )
 
     def __init__(
         self, frame: FrameData, shelter: Shelter | None = None, ground: Ground | None = None
     ) -> None:
         self._rain = RainField(frame.areas, frame.fronts)
+        self._air, self._fog = frame.air, frame.fog.extinction
         self._shelter, self._ground, self._time = shelter, ground, frame.time
         self._lights = [
             (*position, reach, luminance(color)) for position, color, reach in frame.lights.tolist()
@@ -65,7 +73,7 @@ class SampleField:
         self._day_light = luminance(sky.sun_color) * max(sky.sun_direction[1], 0.0) + 0.5 * (
             luminance(sky.zenith_color) + luminance(sky.horizon_color)
         )
-        self._wind = frame.wind
+        self._wind, self._profile = frame.wind, frame.profile
 
     def rain_rate(self, x: float, y: float, z: float) -> float:
         """mm/h at a point in the open: the areas' rates, each falling off over its soft edge."""
@@ -92,21 +100,25 @@ class SampleField:
     def at(self, x: float, y: float, z: float) -> Sample:
         """Everything at a point."""
         rate = self._rain.rate(x, y, z)
-        lost = _CLEAR + _RAIN * rate**_RAIN_POWER
+        temperature = temperature_at(self._air.temperature, y)
+        snow = rate * share_at(temperature, self._air.humidity) if rate > 0.0 else 0.0
+        rain = rate - snow
+        lost = self._fog + falling_extinction(rain, snow)
         sheltered = self.sheltered(x, y, z)
         wetness = 0.0
         if self._ground is not None and not sheltered:
             wetness = self._ground.at(x, y, z, rate, self._time)
         return Sample(
-            0.0 if sheltered else rate,
-            0.0,
+            0.0 if sheltered else rain,
+            0.0 if sheltered else snow,
             sheltered,
             wind_at(self._wind, self._profile, y),
             CONTRAST / lost,
             wetness,
             0.0,
-            TEMPERATURE,
+            temperature,
             self.light(x, y, z),
+            self._air.humidity,
         )
 
     def mode(self, x: float, z: float) -> str:
