@@ -7,13 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.views import look_from, perspective
 from weather_ecs.components import CloudModel, CloudRoot, CloudSeed
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.frame import BILLBOARD_DTYPE
 from weather_ecs.physics import reproduction
 from weather_ecs.physics.cloud_images import CLOUD_IMAGES
-from weather_ecs.physics.cloud_shape import bounding_radius, frustum, shape, visible
+from weather_ecs.physics.cloud_shape import bounding_radius, shape
 from weather_ecs.physics.reproduction import billboards, level_counts, reproduce
 
 
@@ -216,43 +215,3 @@ def test_the_radius_reaches_the_farthest_corner():
     assert bounding_radius(*boxes) == pytest.approx((49 + 9 + 49) ** 0.5)
     with pytest.raises(InvalidValueError):
         bounding_radius(np.zeros((0, 3)), np.zeros((0, 3)))
-
-
-def camera(far: float = 1000.0) -> np.ndarray:
-    return perspective(60.0, 1.5, 1.0, far) @ look_from((10, 20, 30), 0.5, 0.2)
-
-
-def test_clouds_are_in_view_when_some_of_their_sphere_is_in_the_frustum():
-    view = frustum(camera())
-    draw = rng()
-    centers, radii = draw.uniform(-1500, 1500, (3000, 3)), draw.uniform(0, 300, 3000)
-    got = visible(centers, radii, view)
-    # By brute force: points all over each sphere; one that is in view makes it so.
-    away = draw.normal(size=(400, 3))
-    away *= (draw.uniform(0, 1, 400) ** (1 / 3) / np.linalg.norm(away, axis=1))[:, None]
-    points = centers[:, None] + radii[:, None, None] * np.vstack((away, np.zeros(3)))
-    clip = np.concatenate((points, np.ones((*points.shape[:2], 1))), axis=2) @ camera().T
-    seen = np.all(np.abs(clip[..., :3]) <= clip[..., 3:], axis=2).any(axis=1)
-    assert 100 < seen.sum() < 2000
-    assert not np.any(seen & ~got)  # nothing in view is left out
-    assert got.sum() < seen.sum() * 1.3  # and little more than what is in view is kept
-
-
-def test_points_are_in_view_exactly_when_they_are():
-    view = frustum(camera())
-    centers = rng().uniform(-1500, 1500, (4000, 3))
-    clip = np.concatenate((centers, np.ones((4000, 1))), axis=1) @ camera().T
-    seen = np.all(np.abs(clip[:, :3]) <= clip[:, 3:], axis=1)
-    assert np.array_equal(visible(centers, np.zeros(4000), view), seen)
-    corners = np.linalg.inv(camera()) @ np.array([1, 1, 1, 1])
-    reach = np.linalg.norm(corners[:3] / corners[3] - view.center)
-    assert view.radius >= reach * (1 - 1e-9)
-
-
-def test_a_view_without_a_far_end_sees_as_far_as_it_likes():
-    endless = perspective(60.0, 1.5, 1.0, 1e3)
-    endless[2] = (0, 0, -1, -2)  # the far plane at infinity
-    view = frustum(endless)
-    assert visible([[0, 0, -1e7], [0, 0, 5]], [1.0, 1.0], view).tolist() == [True, False]
-    with pytest.raises(InvalidValueError):
-        frustum(np.zeros((4, 4)))

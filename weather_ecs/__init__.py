@@ -5,6 +5,13 @@ Importing the package touches no OpenGL.
 
 from __future__ import annotations
 
+from weather_ecs.cloud_files import (
+    CloudFile,
+    load_cloud_model,
+    load_clouds,
+    save_cloud_model,
+    save_clouds,
+)
 from weather_ecs.errors import (
     ClosedError,
     ContextError,
@@ -12,6 +19,7 @@ from weather_ecs.errors import (
     ShaderError,
     SnapshotError,
     WeatherError,
+    WeatherFileError,
 )
 from weather_ecs.public_glsl import glsl
 from weather_ecs.quality import QualitySettings
@@ -23,6 +31,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "ClosedError",
+    "CloudFile",
     "ContextError",
     "InvalidValueError",
     "QualitySettings",
@@ -32,6 +41,11 @@ __all__ = [
     "Stats",
     "Weather",
     "WeatherError",
+    "WeatherFileError",
     "__version__",
     "glsl",
+    "load_cloud_model",
+    "load_clouds",
+    "save_cloud_model",
+    "save_clouds",
 ]

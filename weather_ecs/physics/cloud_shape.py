@@ -1,7 +1,7 @@
-"""Clouds as wholes: the cloud that a model and a number give, its sphere, and which are in view.
+"""Clouds as wholes: the cloud that a model and a number give, and the sphere that holds it.
 
-After Torchelsen (2005), section 3.2: a cloud's radius reaches the farthest corner of its seeds, and
-the sphere is tested against the frustum's own sphere before its planes.
+After Torchelsen (2005), section 3.2: a cloud's radius reaches the farthest corner of its seeds.
+`cloud_view` tests that sphere against what a camera sees.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from weather_ecs.errors import InvalidValueError
-from weather_ecs.physics.checks import FloatArray, count, floats
+from weather_ecs.physics.checks import count, floats
 from weather_ecs.physics.reproduction import billboards, reproduce
 
 
@@ -54,46 +54,3 @@ def bounding_radius(centers: ArrayLike, sizes: ArrayLike) -> float:
         raise InvalidValueError("centers", boxes.shape, "shape (n, 3), as the sizes', n >= 1")
     corner = np.abs(boxes) + 0.5 * sides
     return float(np.sqrt((corner * corner).sum(axis=1).max()))
-
-
-class Frustum(NamedTuple):
-    """What a camera sees, world axes."""
-
-    planes: FloatArray  # (6, 4): unit normal inwards and offset; a.p + d >= 0 inside
-    center: FloatArray  # (3,), m, of its own sphere
-    radius: float  # m; infinite where the view has no far end
-
-
-def frustum(view_projection: ArrayLike) -> Frustum:
-    """The frustum of a (4, 4) matrix for column vectors, world to clip space of OpenGL."""
-    matrix = floats("view_projection", view_projection)
-    if matrix.shape != (4, 4):
-        raise InvalidValueError("view_projection", matrix.shape, "shape (4, 4)")
-    try:
-        inverse = np.linalg.inv(matrix)
-    except np.linalg.LinAlgError:
-        raise InvalidValueError("view_projection", matrix, "a matrix with an inverse") from None
-    rows = np.concatenate((matrix[3] + matrix[:3], matrix[3] - matrix[:3]))
-    length = np.linalg.norm(rows[:, :3], axis=1)
-    # A projection without a far end has no far plane: everything is in front of it.
-    flat = length < 1e-12 * length.max(initial=0.0)
-    rows[flat] = (0.0, 0.0, 0.0, np.inf)
-    planes = rows / np.where(flat, 1.0, length)[:, None]
-    signs = np.array([[x, y, z, 1.0] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-    corners = signs @ inverse.T
-    if flat.any() or not np.all(corners[:, 3] > 1e-12 * corners[:, 3].max()):
-        return Frustum(planes, np.zeros(3), np.inf)
-    corners = corners[:, :3] / corners[:, 3:]
-    center = corners.mean(axis=0)
-    return Frustum(planes, center, float(np.linalg.norm(corners - center, axis=1).max()))
-
-
-def visible(centers: ArrayLike, radii: ArrayLike, view: Frustum) -> NDArray[np.bool_]:
-    """Which clouds, spheres of these centres (n, 3) and radii (n,), may be in view, (n,)."""
-    middles, reach = floats("centers", centers), floats("radii", radii, 0.0)
-    result = np.zeros(len(middles), bool)
-    offset = middles - view.center
-    near = (offset * offset).sum(axis=1) <= (view.radius + reach) ** 2
-    depth = middles[near] @ view.planes[:, :3].T + view.planes[:, 3]
-    result[near] = np.all(depth >= -reach[near, None], axis=1)
-    return result
