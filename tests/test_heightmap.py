@@ -24,6 +24,7 @@ from weather_ecs.gpu.occluder_meshes import OccluderMeshes
 from weather_ecs.gpu.renderer import Renderer
 from weather_ecs.gpu.shader_loader import ShaderLoader
 from weather_ecs.physics.drops import diameter_quantile, terminal_speed
+from weather_ecs.physics.footprint import OFF, RESTED, SlopeFollower, fall_slope
 from weather_ecs.systems.rain_view import RainView
 
 SIZE = 128
@@ -503,3 +504,29 @@ def test_occluders_that_share_a_mesh_are_one_draw_and_those_outside_are_left_out
     shaders.release()
     for thing in (*target.color_attachments, target.depth_attachment, target):
         thing.release()
+
+
+# The slope in gusts
+
+
+def test_the_maps_slope_follows_gusts_in_few_steps_and_comes_to_rest():
+    follower, used = SlopeFollower(), []
+    for k in range(600):
+        wind = 3.0 + 3.0 * min(max(math.sin(k / 60.0), 0.0), 1.0)
+        wanted = fall_slope((wind, 0.0, 0.0), 6.5)
+        used.append(follower.follow(wanted)[0])
+        assert abs(used[-1] - wanted[0]) <= OFF + 1e-9
+    steps = np.count_nonzero(np.diff(used))
+    assert 4 <= steps <= 24  # and not some 90
+    last = fall_slope((3.3, 0.0, 0.0), 6.5)
+    follower.follow(last)
+    assert [follower.follow(last) for _ in range(RESTED)][-1] == last
+
+
+def test_a_sudden_change_of_the_wind_counts_at_once_and_steep_slopes_are_followed_less_closely():
+    follower = SlopeFollower()
+    assert follower.follow((0.3, 0.0)) == (0.3, 0.0)
+    assert follower.follow((0.3, 0.2)) == (0.3, 0.2)
+    assert follower.follow((0.38, 0.2)) == (0.3, 0.2)
+    assert follower.follow((3.0, 0.0)) == (3.0, 0.0)
+    assert follower.follow((3.2, 0.0)) == (3.0, 0.0)

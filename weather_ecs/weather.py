@@ -17,7 +17,7 @@ from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, Wea
 from weather_ecs.frame import FrameData
 from weather_ecs.observer_keys import ObserverKeys
 from weather_ecs.physics.camera import Camera, camera_from
-from weather_ecs.physics.footprint import fall_slope, fall_speed_over, landing_wind
+from weather_ecs.physics.footprint import SlopeFollower, fall_slope, fall_speed_over, landing_wind
 from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, settings_for
 from weather_ecs.sampling import Sample, SampleField
 from weather_ecs.stats import Stats
@@ -81,7 +81,7 @@ class Weather:
         self._stats = Stats(quality=self._settings.name, backend=self._backend)
         self._observer: tuple[float, float, float] | None = None  # m, of the last draw
         self._keys = ObserverKeys()
-        self._shelter = ShelterIndex()
+        self._shelter, self._slope = ShelterIndex(), SlopeFollower()
         self._gauges = GaugeBoard()
         self._field: SampleField | None = None
         self._field_frame: FrameData | None = None
@@ -319,7 +319,8 @@ class Weather:
         frame = self._frame()
         if self._field is None or frame is not self._field_frame:
             wind = landing_wind(frame.wind, frame.profile)
-            slope = fall_slope(wind, fall_speed_over(frame.areas["rain_rate"]))
+            wanted = fall_slope(wind, fall_speed_over(frame.areas["rain_rate"]))
+            slope = self._slope.follow(wanted)
             self._shelter.update(frame.occluders, slope, frame.time)
             self._field = SampleField(frame, self._shelter, self._state.wet_ground)
             self._field_frame = frame

@@ -18,7 +18,13 @@ from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.occluder_meshes import OccluderMeshes
-from weather_ecs.physics.footprint import Footprint, fall_speed_of, footprint
+from weather_ecs.physics.footprint import (
+    Footprint,
+    SlopeFollower,
+    fall_slope,
+    fall_speed_of,
+    footprint,
+)
 
 __all__ = ["Footprint", "Heightmap", "fall_speed_of", "footprint"]
 
@@ -46,6 +52,7 @@ class Heightmap:
         self._moving: list[OccluderData] = []
         self._callbacks = False  # among what moves: the game may draw it elsewhere at any time
         self._broken: set[int] = set()
+        self._slope = SlopeFollower()
 
     def _layer(self) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
         texture = self._ctx.depth_texture((self.size, self.size))
@@ -68,7 +75,8 @@ class Heightmap:
         Leaves the bound framebuffer, depth test, mask and culling changed: the caller restores.
         """
         before = self.footprint
-        place = footprint(position, reach, wind, fall_speed, self.size, before, extent)
+        slope = self._slope.follow(fall_slope(wind, fall_speed))
+        place = footprint(position, reach, wind, fall_speed, self.size, before, extent, slope)
         # An occluder that has not changed is the same object, and lists compare by identity.
         if occluders is self._seen and place == before and not self._callbacks:
             return False

@@ -20,6 +20,9 @@ _STEEPEST = 4.0
 # m: a drop takes on the air's motion over speed^2/g, about 3 m for one of 1.5 mm, and so lands with
 # the motion of the air that it has come through.
 LANDING = 4.0
+# Slope that a map may be off in gusts (and as a share of steep ones): 0.2 m on the ground under a
+# roof of 2 m. Draws, half a second of them, after which it is brought up to any smaller change.
+OFF, RESTED = 0.1, 30
 _ABOVE, _BELOW = 120.0, 80.0  # m of height that the map can tell apart, about the observer
 
 
@@ -48,6 +51,33 @@ class Footprint:
         )
 
 
+class SlopeFollower:
+    """The slope that a map is made for: that of the rain, but not in every little change of it.
+
+    A map costs some milliseconds, and in gusts the slope never rests. It follows where it is off by
+    more than OFF, or by any step after it has been the same RESTED times in a row.
+    """
+
+    def __init__(self) -> None:
+        self._slope: tuple[float, float] | None = None
+        self._wanted = (0.0, 0.0)
+        self._rested = 0
+
+    def follow(self, wanted: tuple[float, float]) -> tuple[float, float]:
+        """The slope to use where the rain falls along `wanted`."""
+        self._rested = self._rested + 1 if wanted == self._wanted else 0
+        self._wanted = wanted
+        kept = self._slope
+        if kept is None or self._rested >= RESTED or _apart(kept, wanted):
+            self._slope = kept = wanted
+        return kept
+
+
+def _apart(kept: tuple[float, float], wanted: tuple[float, float]) -> bool:
+    off = math.dist(kept, wanted)
+    return off > OFF * max(math.hypot(*kept), 1.0)
+
+
 def footprint(
     position: tuple[float, float, float],
     reach: float,
@@ -56,13 +86,14 @@ def footprint(
     size: int,
     before: Footprint | None,
     extent: float = 1.25,
+    slope: tuple[float, float] | None = None,
 ) -> Footprint:
     """What the map should cover for an observer; `before` where that still serves.
 
     The half-size, `extent` times the reach, leaves room to move; the centre is a whole number of
-    texels.
+    texels. Without a `slope`, it is that of wind and fall speed.
     """
-    slope = fall_slope(wind, fall_speed)
+    slope = fall_slope(wind, fall_speed) if slope is None else slope
     x, y, z = position
     center = (x + y * slope[0], z + y * slope[1])
     half = extent * reach
@@ -77,9 +108,7 @@ def footprint(
     return Footprint(snapped, half, slope, middle - _BELOW, middle + _ABOVE)
 
 
-def landing_wind(
-    wind: tuple[float, float, float], profile: Profile
-) -> tuple[float, float, float]:
+def landing_wind(wind: tuple[float, float, float], profile: Profile) -> tuple[float, float, float]:
     """The wind that slants the rain where it lands, m/s: that of LANDING m above the ground."""
     return wind_at(wind, profile, profile.ground + LANDING)
 
