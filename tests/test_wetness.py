@@ -18,6 +18,7 @@ from weather_ecs.components import Occluder, RainArea
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.frame import AREA_DTYPE
 from weather_ecs.physics.ellipse import edge_factor
+from weather_ecs.physics.ground_law import WATER
 from weather_ecs.physics.rain_field import area_shares
 from weather_ecs.physics.wet_field import open_water
 from weather_ecs.physics.wetness import (
@@ -258,7 +259,7 @@ def test_what_the_gpu_begins_with_is_what_samples_say():
     frame = weather._frame()
     wet = frame.wetness
     points = np.random.default_rng(0).uniform(-250, 350, (500, 2))
-    levels = [(t.cell, t.places, t.water, wet.ticks - t.since, t.rows) for t in wet.levels]
+    levels = [(t.cell, t.places, t.water, wet.ticks - t.since, t.rows, WATER) for t in wet.levels]
     got = open_water(points, levels, frame.time - wet.ticks, frame.areas)
     expected = [weather.sample((x, 0, z)).wetness for x, z in points.tolist()]
     np.testing.assert_allclose(got, expected, atol=1e-6)

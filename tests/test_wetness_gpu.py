@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import esper
@@ -26,7 +27,7 @@ from weather_ecs.components import (
     Wind,
 )
 from weather_ecs.errors import ContextError
-from weather_ecs.frame import FrameData, OccluderData, ViewData, WetnessData
+from weather_ecs.frame import AirData, FrameData, OccluderData, ViewData, WetnessData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
@@ -40,6 +41,7 @@ from weather_ecs.gpu.wetness_pass import DRY_AFTER, ROUND, WetnessPass
 from weather_ecs.physics import wet_map
 from weather_ecs.physics.ellipse import edge_factor
 from weather_ecs.physics.footprint import fall_speed_over
+from weather_ecs.physics.snow_cover import melt_rate
 from weather_ecs.physics.wetness import DRYING, FILM, film_capacity, settle_one
 from weather_ecs.systems.rain_view import RainView
 from weather_ecs.systems.wet_ground import WetGround
@@ -96,16 +98,17 @@ class Maps:
         return self.wetness._observed[0]
 
     def read(self) -> np.ndarray:
-        """(rows along z, columns along x, mm and height)."""
+        """(rows along z, columns along x, mm of water, height and mm of snow)."""
         texture = self.seen.textures[self.seen.current]
-        return np.frombuffer(texture.read(), np.float32).reshape(*texture.size, 2).copy()
+        raw = np.frombuffer(texture.read(), np.float32).reshape(*texture.size, 4)
+        return raw[..., :3].copy()
 
-    def at(self, x: float, y: float, z: float) -> float:
-        """mm at the texel over a point."""
+    def at(self, x: float, y: float, z: float, what: int = 0) -> float:
+        """mm of water at the texel over a point; with 2, of snow."""
         place = self.seen.place
         u = (x + y * place.slope[0] - place.center[0]) / place.texel + 0.5 * place.size
         w = (z + y * place.slope[1] - place.center[1]) / place.texel + 0.5 * place.size
-        return float(self.read()[int(w), int(u), 0])
+        return float(self.read()[int(w), int(u), what])
 
     def expected(self, frame: FrameData, before: np.ndarray | None, old: Any, ages: Any) -> Any:
         """What the oracle makes of the map before."""
@@ -121,23 +124,26 @@ class Maps:
         for _, center, radii, heading, full, edge, ceiling in frame.areas.tolist():
             share = edge_factor(points[:, [0, 2]], center, radii, heading, edge)
             rate += np.where(points[:, 1] < ceiling, full * share, 0.0)
-        far = self.far(points[:, [0, 2]]).reshape(place.size, place.size)
+        far = self.far(points[:, [0, 2]]).reshape(place.size, place.size, 2)
         water, seconds = wet_map.carried(found, far, before, old, ages)
-        return found, wet_map.step(found, water, seconds, rate.reshape(place.size, place.size))
+        rate = rate.reshape(place.size, place.size)
+        air = frame.air
+        melt = float(melt_rate(air.wet_bulb))
+        return found, wet_map.step(found, water, seconds, rate, air.snow_share, melt)
 
     def far(self, points: np.ndarray) -> np.ndarray:
         texture = self.seen.far.texture
         n = texture.width
-        table = np.frombuffer(texture.read(), np.float32).reshape(n, n)
+        table = np.frombuffer(texture.read(), np.float32).reshape(n, n, 2)
         at = (points - self.seen.far.middle) / (2.0 * HALF) * n + 0.5 * n - 0.5
         low = np.floor(at).astype(int)
         part = at - low
-        total = np.zeros(len(points))
+        total = np.zeros((len(points), 2))
         for i in (0, 1):
             for j in (0, 1):
                 x, z = np.clip(low + (i, j), 0, n - 1).T
                 weight = np.abs(1 - i - part[:, 0]) * np.abs(1 - j - part[:, 1])
-                total += weight * table[z, x]
+                total += weight[:, None] * table[z, x]
         return total
 
     def release(self) -> None:
@@ -168,16 +174,32 @@ def scene(time: float, *occluders: OccluderData, **rest: Any) -> FrameData:
 # Against the oracle
 
 
-@pytest.mark.parametrize("wind", [(0.0, 0.0, 0.0), (5.0, 0.0, -3.0)])
-def test_the_map_is_what_its_oracle_says(maps: Maps, wind: Point) -> None:
-    before, old = None, None
+RAIN = AirData()
+SLEET = AirData(2.0, 0.8, 1.0, 0.4)
+SNOW = AirData(-3.0, 0.9, -3.5, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("wind", "air"),
+    [
+        ((0.0, 0.0, 0.0), RAIN),
+        ((5.0, 0.0, -3.0), RAIN),
+        ((0.0, 0.0, 0.0), SNOW),
+        ((2.0, 0.0, 0.0), SLEET),
+    ],
+)
+def test_the_map_is_what_its_oracle_says(maps: Maps, wind: Point, air: AirData) -> None:
+    before, old, snowed = None, None, False
     ages = np.zeros(wet_map.BANDS)
     cart = placed((-4, 1.5, 0), (1.5, 0.5, 1.5))
     # A start, some bands, all of them, a walk, a turn of the wind, a stay.
     moments = [(10.0, 0, wind), (10.1, 0, wind), (11.2, 0, wind), (11.3, 4.2, wind)]
     moments += [(11.4, 4.2, (-4.0, 0.0, 2.0)), (12.9, 4.2, (-4.0, 0.0, 2.0))]
     for k, (time, x, now) in enumerate(moments):
-        data = scene(time, GROUND, ROOF, box(2, cart, True), wind=now)
+        data = scene(time, GROUND, ROOF, box(2, cart, True), wind=now, air=air)
+        # In the end all of it thaws.
+        if k == len(moments) - 1 and air.snow_share == 1.0:
+            data = replace(data, air=AirData(6.0, 0.8, 5.0, 0.0))
         if k:
             before, old = maps.read(), maps.seen.place
             ages = time - maps.seen.times
@@ -193,11 +215,13 @@ def test_the_map_is_what_its_oracle_says(maps: Maps, wind: Point) -> None:
             turns = (bands + np.arange(due)) % -(-place.size // place.rows)
             fresh = np.isin(np.arange(place.size) // place.rows, turns)
             np.testing.assert_array_equal(got[~fresh], before[~fresh])
-        away = np.abs(got[..., 0] - expected)[fresh]
+        away = np.abs(got[..., [0, 2]] - expected)[fresh]
         # A texel whose point falls on the line between two of the map before may take either.
         assert np.mean(away > 1e-4 + 1e-3 * expected[fresh]) < 0.01, k
         assert np.median(away) < 1e-5
-    assert expected.max() > 0.02
+        snowed = snowed or bool(got[..., 2].max() > 0.001)
+    assert expected[..., 0].max() > (0.005 if air.snow_share == 1.0 else 0.01)
+    assert snowed == (air.snow_share > 0.0)
     assert (expected[found.known] == 0.0).any()
 
 
@@ -263,7 +287,25 @@ def test_dry_under_a_roof_wet_upon_it_and_dry_where_it_does_not_rain(maps: Maps)
     assert maps.at(5.0, 4.1, 3.0) == pytest.approx(expected, rel=0.1)  # the roof's top
     assert maps.at(5.0, 0.0, 8.5) == pytest.approx(expected, rel=0.1)
     assert maps.at(-17.5, 0.0, 0.0) == 0.0
-    assert read.shape == (place.size, place.size, 2)
+    assert read.shape == (place.size, place.size, 3)
+
+
+def test_snow_lies_on_roof_and_ground_melts_and_wets_them(maps: Maps) -> None:
+    roof = box(1, placed((5, 4, 3), (4, 0.1, 3)))
+    walk(maps, 30.0, lambda t: scene(t, LEVEL, roof, air=SNOW))
+    fallen = 40.0 / 3600.0 * 30.0
+    for point in ((5.0, 4.1, 3.0), (5.0, 0.0, 8.5)):
+        assert maps.at(*point, 2) == pytest.approx(fallen, rel=0.1)
+        assert maps.at(*point) == 0.0
+    read = maps.read()
+    under = np.abs(read[..., 1]) < 0.5
+    assert read[under][:, 2].max() == pytest.approx(fallen, rel=0.1)
+    dry = [area(0, (8.0, 0.0), (25.0, 20.0), 0.0)]
+    thaw = AirData(8.0, 0.9, 7.0, 0.0)
+    rate = float(melt_rate(thaw.wet_bulb))
+    walk(maps, 10.0, lambda t: scene(t, LEVEL, roof, rows=dry, air=thaw), start=30.0)
+    assert maps.at(5.0, 4.1, 3.0, 2) == pytest.approx(fallen - 10.0 * rate, rel=0.15)
+    assert maps.at(5.0, 4.1, 3.0) == pytest.approx(10.0 * rate, rel=0.15)
 
 
 def test_what_moves_keeps_the_rain_off_and_leaves_the_ground_as_it_was(maps: Maps) -> None:
@@ -354,7 +396,7 @@ def test_without_occluders_there_is_the_far_field(maps: Maps) -> None:
     assert maps.seen.place is None
     points = np.array([(0.0, 0.0), (100.0, 20.0)])
     expected = settle_one(0.0, 25.0 / 3600.0, FILM, 30.0)
-    np.testing.assert_allclose(maps.far(points), expected, rtol=0.02)
+    np.testing.assert_allclose(maps.far(points)[:, 0], expected, rtol=0.02)
 
 
 def test_a_forgotten_observer_leaves_nothing(ctx: moderngl.Context, maps: Maps) -> None:
@@ -469,7 +511,7 @@ def test_a_games_shader_reads_what_samples_say(
 @pytest.mark.usefixtures("world")
 def test_it_dries_when_the_rain_is_over(ctx: moderngl.Context, reader: Reader) -> None:
     with Weather(context=ctx, quality="low") as weather:
-        rain = RainArea((0, 0), (70, 70), 60.0)
+        rain = RainArea((0, 0), (70, 70), 60.0, onset=0.0)
         esper.create_entity(rain)
         esper.create_entity(Wind((1, 0), 4.0))
         esper.create_entity(ground())

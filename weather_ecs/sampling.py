@@ -12,6 +12,8 @@ from weather_ecs.frame import FrameData
 from weather_ecs.physics.optics import CONTRAST, falling_extinction
 from weather_ecs.physics.phase import share_at, temperature_at
 from weather_ecs.physics.rain_field import RainField
+from weather_ecs.physics.snow_cover import DENSITY, SOAKED
+from weather_ecs.physics.wetness import FILM
 from weather_ecs.physics.wind import wind_at
 
 _RED, _GREEN, _BLUE = 0.2126, 0.7152, 0.0722  # luminance of linear RGB (Rec. 709)
@@ -53,19 +55,26 @@ class SampleField:
         "_fog",
         "_ground",
         "_lights",
+        "_melts",
         "_profile",
         "_rain",
         "_shelter",
+        "_snow",
         "_time",
         "_wind",
     )
 
     def __init__(
-        self, frame: FrameData, shelter: Shelter | None = None, ground: Ground | None = None
+        self,
+        frame: FrameData,
+        shelter: Shelter | None = None,
+        ground: Ground | None = None,
+        snow: Ground | None = None,
     ) -> None:
         self._rain = RainField(frame.areas, frame.fronts)
         self._air, self._fog = frame.air, frame.fog.extinction
         self._shelter, self._ground, self._time = shelter, ground, frame.time
+        self._snow, self._melts = snow, frame.air.wet_bulb > 0.0
         self._lights = [
             (*position, reach, luminance(color)) for position, color, reach in frame.lights.tolist()
         ]
@@ -105,9 +114,13 @@ class SampleField:
         rain = rate - snow
         lost = self._fog + falling_extinction(rain, snow)
         sheltered = self.sheltered(x, y, z)
-        wetness = 0.0
-        if self._ground is not None and not sheltered:
-            wetness = self._ground.at(x, y, z, rate, self._time)
+        wetness, lying = 0.0, 0.0
+        if self._ground is not None and self._snow is not None and not sheltered:
+            falls = rate * self._air.snow_share
+            wetness = self._ground.at(x, y, z, rate - falls, self._time)
+            lying = self._snow.at(x, y, z, falls, self._time)
+            if lying > 0.0 and self._melts:
+                wetness = max(wetness, min(lying / SOAKED * FILM, FILM))
         return Sample(
             0.0 if sheltered else rain,
             0.0 if sheltered else snow,
@@ -115,7 +128,7 @@ class SampleField:
             wind_at(self._wind, self._profile, y),
             CONTRAST / lost,
             wetness,
-            0.0,
+            lying / DENSITY,
             temperature,
             self.light(x, y, z),
             self._air.humidity,

@@ -21,6 +21,7 @@ from weather_ecs.clock import Clock
 from weather_ecs.components import SNAPSHOT_COMPONENTS
 from weather_ecs.components._base import Component, set_unchecked
 from weather_ecs.errors import InvalidValueError, SnapshotError
+from weather_ecs.physics.ground_law import SnowLaw
 from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.wet_ground import WetGround
@@ -36,7 +37,7 @@ _NAMES = {
     name: tuple(sorted(field.name for field in fields(kind)))  # type: ignore[arg-type]
     for name, kind in SNAPSHOT_COMPONENTS.items()
 }
-_PARTS = {"clock", "entities", "fronts", "next_uid", "rng", "seed", "wetness"}
+_PARTS = {"clock", "entities", "fronts", "next_uid", "rng", "seed", "snow", "wetness"}
 
 
 class Entity(NamedTuple):
@@ -56,6 +57,7 @@ class Loaded(NamedTuple):
     next_uid: int
     entities: list[Entity]
     wet_ground: WetGround
+    snow_ground: WetGround
 
 
 def encode(document: dict[str, Any]) -> bytes:
@@ -116,6 +118,7 @@ def capture(state: WeatherState) -> dict[str, Any]:
         "next_uid": state.uids.next,
         "rng": state.rng.bit_generator.state,
         "seed": state.seed,
+        "snow": state.snow_ground.state(),
         "wetness": state.wet_ground.state(),
     }
 
@@ -153,6 +156,7 @@ def _load(document: dict[str, Any]) -> Loaded:
         next_uid=next_uid,
         entities=entities,
         wet_ground=WetGround.from_state(document["wetness"]),
+        snow_ground=WetGround.from_state(document["snow"], SnowLaw),
     )
 
 
@@ -192,6 +196,7 @@ def apply(state: WeatherState, loaded: Loaded) -> None:
     state.clock = loaded.clock
     state.fronts = loaded.fronts
     state.wet_ground = loaded.wet_ground
+    state.snow_ground = loaded.snow_ground
     state.uids.assign(assigned, loaded.next_uid)
 
 

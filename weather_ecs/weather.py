@@ -322,7 +322,8 @@ class Weather:
             wanted = fall_slope(wind, fall_speed_over(frame.areas["rain_rate"]))
             slope = self._slope.follow(wanted)
             self._shelter.update(frame.occluders, slope, frame.time)
-            self._field = SampleField(frame, self._shelter, self._state.wet_ground)
+            state = self._state
+            self._field = SampleField(frame, self._shelter, state.wet_ground, state.snow_ground)
             self._field_frame = frame
         return self._field
 

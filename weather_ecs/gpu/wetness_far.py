@@ -1,14 +1,18 @@
-"""The water beyond the wetness map, and where the map begins: the weather's own coarse field."""
+"""Water and snow beyond the wetness map, and where the map begins: the weather's coarse field."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
-from weather_ecs.frame import ViewData
+from weather_ecs.frame import ViewData, WetnessData
 from weather_ecs.physics.front import on_level_ground
+from weather_ecs.physics.ground_law import WATER, GroundLaw, SnowLaw
+from weather_ecs.physics.snow_cover import melt_rate
 from weather_ecs.physics.wet_field import open_water
 
 TEXELS, TEXEL = 64, 8.0  # a side; m
@@ -17,10 +21,13 @@ WATCHED = 1.5 * HALF  # m, within which rain and wet ground matter to it
 
 
 class FarField:
-    """mm on level ground in the open around one observer, a texture made anew once a second."""
+    """mm of water and of snow on level ground in the open around one observer.
+
+    A texture of two components, made anew once a second.
+    """
 
     def __init__(self, ctx: moderngl.Context) -> None:
-        self.texture = ctx.texture((TEXELS, TEXELS), 1, bytes(4 * TEXELS * TEXELS), dtype="f4")
+        self.texture = ctx.texture((TEXELS, TEXELS), 2, bytes(8 * TEXELS * TEXELS), dtype="f4")
         self.texture.filter = moderngl.LINEAR, moderngl.LINEAR
         self.texture.repeat_x = self.texture.repeat_y = False
         self.middle = (0.0, 0.0)  # m, (x, z)
@@ -48,20 +55,44 @@ class FarField:
         across = (np.arange(TEXELS) + 0.5) * TEXEL - HALF
         grid = np.meshgrid(self.middle[0] + across, self.middle[1] + across)
         points = np.stack(grid, axis=-1).reshape(-1, 2)
-        levels = [
-            (tiles.cell, tiles.places, tiles.water, float(wet.ticks - tiles.since), tiles.rows)
-            for tiles in wet.levels
-        ]
-        rest = max(view.frame.time - wet.ticks, 0.0)
-        areas = on_level_ground(view.frame.areas, view.frame.fronts)
-        water = open_water(points, levels, rest, areas)
-        self.texture.write(water.astype(np.float32).tobytes())
+        air = view.frame.air
+        water = _field(view, wet, points, 1.0 - air.snow_share, _water_law)
+        snow = np.zeros_like(water)
+        if view.frame.snow_ground is not None:
+            snow = _field(view, view.frame.snow_ground, points, air.snow_share, SnowLaw)
+        both = np.stack([water, snow], axis=-1)
+        self.texture.write(both.astype(np.float32).tobytes())
         self._made = (wet.number, wet.ticks)
-        self.dry = not water.any()
+        self.dry = not both.any()
 
     def release(self) -> None:
         """Give the texture back; twice does no harm."""
         self.texture.release()
+
+
+def _water_law(melt: float) -> GroundLaw:
+    return WATER
+
+
+def _field(
+    view: ViewData,
+    ground: WetnessData,
+    points: NDArray,
+    share: float,
+    law: Callable[[float], GroundLaw],
+) -> NDArray:
+    """mm at points (n, 2), now; `share` of what falls is of this kind."""
+    frame = view.frame
+    levels = [
+        (t.cell, t.places, t.water, float(ground.ticks - t.since), t.rows, law(t.melt))
+        for t in ground.levels
+    ]
+    areas = on_level_ground(frame.areas, frame.fronts)
+    if share < 1.0:
+        areas = areas.copy()
+        areas["rain_rate"] *= share
+    melt = law(float(melt_rate(frame.air.wet_bulb)))
+    return open_water(points, levels, max(frame.time - ground.ticks, 0.0), areas, melt)
 
 
 def rains_within(view: ViewData, reach: float) -> bool:
@@ -74,10 +105,10 @@ def rains_within(view: ViewData, reach: float) -> bool:
 
 
 def wet_within(view: ViewData, reach: float) -> bool:
-    """Whether the ground is wet within `reach` m, in the weather's own coarse field."""
-    wet = view.frame.wetness
+    """Whether water or snow lies within `reach` m, in the weather's own coarse field."""
     here = np.array((view.position[0], view.position[2]))
-    for tiles in wet.levels if wet is not None else ():
+    grounds = (view.frame.wetness, view.frame.snow_ground)
+    for tiles in [t for ground in grounds if ground is not None for t in ground.levels]:
         side = 8.0 * tiles.cell
         away = np.abs((tiles.places + 0.5) * side - here).max(axis=1)
         if (away < reach + 0.5 * side).any():

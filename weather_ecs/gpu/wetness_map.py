@@ -19,14 +19,14 @@ FIRST_UNIT = 14  # of two; at least 16 are there in every stage
 
 
 class WetnessMap:
-    """The water around one observer as the last draw left it; the same object for good.
+    """Water and snow around one observer as the last draw left it; the same object for good.
 
     For programs whose shader includes `wetness.glsl`. Before the first draw everything is dry.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._block = BlockBuffer(ctx, WEATHER_WETNESS)
-        self._dry = ctx.texture((1, 1), 2, bytes(8), dtype="f4")
+        self._dry = ctx.texture((1, 1), 4, bytes(16), dtype="f4")
         self.texture = self.far = self._dry
         self.set((0.0, 0.0, 1.0), None, (0.0, 0.0, 1.0))
 

@@ -1,4 +1,4 @@
-"""The wetness map: the water on what rain meets first, around every observer.
+"""The wetness map: water and snow on what rain meets first, around every observer.
 
 Bands of rows are brought up to date in turn, all of them within 1.2 s; all at once where the
 map moves with its observer, the wind turns or the map begins. The law has a closed form, so that
@@ -23,6 +23,8 @@ from weather_ecs.gpu.rain_pass import SHELTER_UNIT
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.wetness_far import HALF, WATCHED, FarField, rains_within, wet_within
 from weather_ecs.gpu.wetness_map import WetnessMap
+from weather_ecs.physics.front import on_level_ground
+from weather_ecs.physics.snow_cover import melt_rate
 from weather_ecs.physics.wet_map import BANDS, RINGS, MapPlace, place_over
 
 MAX_AREAS = 16
@@ -38,6 +40,7 @@ STEP = UniformBlock(
     ("wet_old_fall", "vec4"),
     ("wet_shelter", "vec4"),  # the heightmap's low corner, m; 1 / its texel
     ("wet_heights", "vec4"),  # m, of the heightmap's top
+    ("wet_snow", "vec4"),  # share of what falls that is snow; mm/s of it that melt
     ("wet_far_place", "vec4"),  # middle of the far field, m; 1 / its side
     ("wet_ages", "vec4", BANDS // 4),  # s since each band's last update
     ("wet_area_axis", "vec4", MAX_AREAS),
@@ -178,11 +181,13 @@ class WetnessPass:
         low = [c - footprint.half for c in footprint.center]
         data["wet_shelter"] = (*low, 1.0 / texel, 0.0)
         data["wet_heights"] = (footprint.top, 0.0, 0.0, 0.0)
+        data["wet_snow"] = (frame.air.snow_share, float(melt_rate(frame.air.wet_bulb)), 0.0, 0.0)
         data["wet_far_place"] = (*seen.far.middle, 0.5 / HALF, 0.0)
         block["wet_ages"].reshape(-1)[:] = np.maximum(frame.time - seen.times, 0.0)
         data["wet_bands"] = place.rows
         data["wet_rings"] = [max(round(radius / texel), 1) for radius in RINGS]
-        areas = frame.areas[frame.areas["rain_rate"] > 0.0]
+        areas = on_level_ground(frame.areas, frame.fronts)
+        areas = areas[areas["rain_rate"] > 0.0]
         if len(areas) > MAX_AREAS:
             away = np.linalg.norm(areas["center"] - np.array(view.position)[[0, 2]], axis=1)
             areas = areas[np.argsort(away - areas["radii"][:, 0], kind="stable")[:MAX_AREAS]]
@@ -232,7 +237,7 @@ class WetnessPass:
             return
         _drop_map(seen)
         for _ in range(2):
-            texture = self._ctx.texture((size, size), 2, dtype="f4")
+            texture = self._ctx.texture((size, size), 4, dtype="f4")
             texture.filter = moderngl.LINEAR, moderngl.LINEAR
             texture.repeat_x = texture.repeat_y = False
             seen.textures.append(texture)

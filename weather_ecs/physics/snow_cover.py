@@ -23,6 +23,7 @@ DENSITY = 100.0  # kg/m3 of snow that has just fallen: ten times as deep as its 
 QUICKER = 60.0
 DEGREE_DAY = 4.0 / 86_400.0 * QUICKER
 STEEPEST, GENTLE = 0.5, 0.8  # upward parts of a normal on which no snow stays, and all of it
+SOAKED = 0.5  # mm of melting snow that keep the ground as wet as it can be
 COVERING = 3e-3  # m of depth after which two thirds of the ground no longer show
 
 

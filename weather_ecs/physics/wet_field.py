@@ -5,34 +5,38 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from weather_ecs.physics.ground_law import WATER, GroundLaw
 from weather_ecs.physics.rain_field import area_shares, plain_rows
-from weather_ecs.physics.wetness import FILM, MM_PER_S, merge, settle
+from weather_ecs.physics.wetness import MM_PER_S
 
 _BITS = 32
 
 
-Level = tuple[float, NDArray, NDArray, float, NDArray]
+Level = tuple[float, NDArray, NDArray, float, NDArray, GroundLaw]
 
 
 def open_water(
-    points: NDArray, levels: list[Level], rest: float, areas: NDArray
+    points: NDArray, levels: list[Level], rest: float, areas: NDArray, law: GroundLaw = WATER
 ) -> NDArray[np.float64]:
     """mm at points (n, 2) (x, z); the same as `systems.wet_ground.WetGround.at`, but for ceilings.
 
     levels: of every size of cells its side in m, tiles (t, 2), water (t, 8, 8) in mm, and areas
-    (AREA_DTYPE) that have rained for some s since. After all that, `areas` have for `rest` s.
+    (AREA_DTYPE) that have rained for some s since, by a law. After all that, `areas` have for
+    `rest` s by `law`; or it has snowed.
     """
     water = np.zeros(len(points))
-    for cell, places, tiles, waited, rows in levels:
+    for cell, places, tiles, waited, rows, own in levels:
         here = _between(points, cell, places, tiles)
-        water = merge(water, _later(points, here, rows, waited))
-    return _later(points, water, areas, rest)
+        water = law.merge(water, _later(points, here, rows, waited, own))
+    return _later(points, water, areas, rest, law)
 
 
-def _later(points: NDArray, water: NDArray, areas: NDArray, seconds: float) -> NDArray:
+def _later(
+    points: NDArray, water: NDArray, areas: NDArray, seconds: float, law: GroundLaw
+) -> NDArray:
     if seconds <= 0.0 or not (len(areas) or water.any()):
         return water
-    return settle(water, _rain(points, areas) * MM_PER_S, FILM, seconds)
+    return law.settle(water, _rain(points, areas) * MM_PER_S, seconds)
 
 
 def _rain(points: NDArray, areas: NDArray) -> NDArray[np.float64]:

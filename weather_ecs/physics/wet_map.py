@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.physics.footprint import Footprint
+from weather_ecs.physics.snow_cover import collect, stays
 from weather_ecs.physics.wetness import (
     CATCHMENT,
     DEEPEST,
@@ -62,6 +63,7 @@ class Surface:
     capacity: NDArray[np.float64]  # mm
     gathers: NDArray[np.float64]  # times its own rain that comes to it
     exposed: NDArray[np.float64]  # 0 to 1, share that rain reaches
+    stays: NDArray[np.float64]  # 0 to 1, share of the snow that stays on it
 
 
 def surface(place: MapPlace, footprint: Footprint, still: NDArray, cover: NDArray) -> Surface:
@@ -114,6 +116,7 @@ def surface(place: MapPlace, footprint: Footprint, still: NDArray, cover: NDArra
         film_capacity(up) + deep,
         1.0 + CATCHMENT * share * share * (3.0 - 2.0 * share),
         reached.sum(axis=0) / np.maximum(known.sum(axis=0), 1),
+        stays(up),
     )
 
 
@@ -124,8 +127,13 @@ def carried(
     old: MapPlace | None,
     ages: NDArray,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(mm that lay there before, s since then), from the map before (n, n, 2) mm and height."""
-    water, seconds = open_water.astype(float), np.zeros_like(open_water, dtype=float)
+    """((n, n, 2) mm of water and of snow that lay there before, (n, n) s since then).
+
+    open_water: (n, n, 2) mm of both in the open; before: the map before, (n, n, 3) mm of water,
+    m of height, mm of snow.
+    """
+    water, seconds = open_water.astype(float), np.zeros(open_water.shape[:2])
+    water[..., 1] *= found.stays
     if before is None or old is None:
         return water, seconds
     x, y, z = np.moveaxis(found.position, -1, 0)
@@ -136,17 +144,31 @@ def carried(
     was = before[j, i]
     same = inside & (np.abs(was[..., 1] - y) < SAME)
     hidden = inside & ~same & (was[..., 1] > y)
-    water = np.where(same, was[..., 0], np.where(hidden, 0.0, water))
+    water = np.where(hidden[..., None], 0.0, water)
+    water = np.where(same[..., None], was[..., [0, 2]], water)
     return water, np.where(same, ages[j // old.rows], 0.0)
 
 
 def step(
-    found: Surface, water: NDArray, seconds: NDArray, rain_rate: NDArray
+    found: Surface,
+    before: NDArray,
+    seconds: NDArray,
+    rate: NDArray,
+    snow_share: float = 0.0,
+    melt: float = 0.0,
 ) -> NDArray[np.float64]:
-    """mm after the rain (mm/h) of those seconds; 0 where nothing is known."""
-    inflow = rain_rate * found.exposed * MM_PER_S * found.facing * found.gathers
-    result = np.zeros_like(water)
+    """(n, n, 2) mm of water and snow after those seconds; 0 where nothing is known.
+
+    rate: mm/h of water that falls, of which `snow_share` is snow; melt: mm/s of snow.
+    """
+    falls = rate * found.exposed * MM_PER_S * found.facing
+    result = np.zeros_like(before)
     for age in np.unique(seconds):
         now = found.known & (seconds == age)
-        result[now] = settle(water[now], inflow[now], found.capacity[now], math.fabs(float(age)))
+        span = math.fabs(float(age))
+        snow, fresh = before[now][:, 1], falls[now] * snow_share * found.stays[now]
+        result[now, 1] = left = collect(snow, fresh, melt, span)
+        melted = (snow + fresh * span - left) / span if span > 0.0 else np.zeros_like(snow)
+        inflow = falls[now] * (1.0 - snow_share) * found.gathers[now] + np.maximum(melted, 0.0)
+        result[now, 0] = settle(before[now][:, 0], inflow, found.capacity[now], span)
     return result

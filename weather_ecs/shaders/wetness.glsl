@@ -1,4 +1,4 @@
-// The weather's water for a game's own shaders; see docs/wetness.md. `WetnessMap.use(program)` binds
+// The weather's water and snow for a game's own shaders; see docs/wetness.md. `WetnessMap.use(program)` binds
 // what is declared here. After a game's own #version line; GLSL 3.30 or newer.
 layout(std140) uniform WeatherWetness
 {
@@ -28,6 +28,36 @@ float weather_water(vec3 p)
         if (below > -0.6) return here.r * (1.0 - smoothstep(0.35, 0.8, below));
     }
     return weather_open_wetness(p);
+}
+
+// mm of water that lie as snow on level ground at p under the open sky; to 250 m off.
+float weather_open_snow(vec3 p)
+{
+    vec2 uv = (p.xz - weather_wet_far_place.xy) * weather_wet_far_place.z;
+    vec2 inside = clamp(8.0 - 16.0 * abs(uv), 0.0, 1.0);
+    return texture(weather_wet_far, uv + 0.5).g * inside.x * inside.y;
+}
+
+// Depth in m of the snow at p on a surface with a unit normal; 0 under cover and on what is steep.
+// For what moves use `Weather.snow_on` instead: the map knows what stands still.
+float weather_snow(vec3 p, vec3 normal)
+{
+    float stays = smoothstep(0.5, 0.8, normal.y);
+    if (stays <= 0.0) return 0.0;
+    vec2 uv = (p.xz + p.y * weather_wet_fall.xy - weather_wet_frame.xy) * weather_wet_frame.z;
+    float snow = -1.0;
+    if (weather_wet_fall.z > 0.5 && max(abs(uv.x), abs(uv.y)) < 0.5) {
+        vec3 here = texture(weather_wet_map, uv + 0.5).rgb;
+        float below = here.g - p.y;
+        if (below > -0.6) snow = here.b * (1.0 - smoothstep(0.35, 0.8, below));
+    }
+    return 0.01 * stays * (snow < 0.0 ? weather_open_snow(p) : snow);
+}
+
+// 0 to 1: how much of a surface so deep a snow hides.
+float weather_snow_cover(float depth)
+{
+    return 1.0 - exp(-depth / 0.003);
 }
 
 // mm of water on a surface at p with a unit normal: less the more it is turned from the rain.

@@ -1,26 +1,27 @@
-// One texel of the wetness map: the water on what rain meets first there, and the height of that.
+// One texel of the wetness map: water and snow on what rain meets first there, and its height.
 // physics/wet_map.py is its oracle. The map lies like the collision heightmap, every texel over two
 // by two of its own, of whose surfaces it takes the lowest: thin rails do not hide the ground below
 // them, they keep a share of the rain off it. What lay at the same place of the world in the map
 // before is carried on.
 #include "wetness_law.glsl"
+#include "snow_cover.glsl"
 #include "rain_area.glsl"
 #include "shelter.glsl"  // shelter_map is the layer of what does not move
 #include <block:WetStep>
 
 uniform sampler2D wet_cover;   // depth of all that rain can hit, what moves included
-uniform sampler2D wet_before;  // mm, m
-uniform sampler2D wet_far;     // mm on level ground in the open, from the CPU
+uniform sampler2D wet_before;  // mm, m, mm
+uniform sampler2D wet_far;     // mm of both on level ground in the open, from the CPU
 
-out vec2 water;  // mm; m, height of the surface, NOTHING where there is none
+out vec4 water;  // mm; m, height of the surface, NOTHING where there is none; mm of snow
 
 const float NOTHING = -1e9;
 const float SAME = 0.5;     // m between heights of what may be one surface
 const float COVERED = 0.1;  // m by which a moving thing stands over it
 
-float open_water(vec2 p)
+vec2 open_water(vec2 p)
 {
-    return texture(wet_far, (p - wet_far_place.xy) * wet_far_place.z + 0.5).r;
+    return texture(wet_far, (p - wet_far_place.xy) * wet_far_place.z + 0.5).rg;
 }
 
 // Height in m of the surface at a texel of the heightmap; NOTHING where there is none.
@@ -66,24 +67,26 @@ void main()
     vec4 known = step(-1e8, heights);
     vec4 found = mix(vec4(1e9), heights, known);
     float y = min(min(found.x, found.y), min(found.z, found.w));
-    water = vec2(0.0, NOTHING);
+    water = vec4(0.0, NOTHING, 0.0, 0.0);
     if (y > 1e8) return;
     water.g = y;
     vec3 p = vec3(place.x - y * shelter_fall.x, y, place.y - y * shelter_fall.y);
 
     // What lay here before.
-    float w = open_water(p.xz);
+    vec2 w = open_water(p.xz);
     float seconds = 0.0;
+    bool fresh = true;
     vec2 old = (p.xz + y * wet_old_fall.xy - wet_old_frame.xy) / wet_old_frame.z;
     ivec2 from = ivec2(floor(old + 0.5 * wet_old_frame.w));
     ivec2 last = ivec2(int(wet_old_frame.w) - 1);
     if (all(greaterThanEqual(from, ivec2(0))) && all(lessThanEqual(from, last))) {
-        vec2 was = texelFetch(wet_before, from, 0).rg;
+        vec3 was = texelFetch(wet_before, from, 0).rgb;
         if (abs(was.g - y) < SAME) {
-            w = was.r;
+            w = was.rb;
+            fresh = false;
             int band = from.y / int(wet_bands);
             seconds = wet_ages[band / 4][band % 4];
-        } else if (was.g > y) w = 0.0;  // it was under cover
+        } else if (was.g > y) w = vec2(0.0);  // it was under cover
     }
 
     // Rain that reaches it since, on the slope's own square metre.
@@ -106,5 +109,13 @@ void main()
     float own = near_height(at, y);  // the rings lie about this one of the four
     float deep = max(hollow(at, wet_rings.x, own), hollow(at, wet_rings.y, own));
     float gathers = 1.0 + CATCHMENT * smoothstep(1.0, 20.0, deep);
-    water.r = settle(w, rate / 3600.0 * facing * gathers, film_capacity(up) + deep, seconds);
+    // What melts wets the ground below; what is new on the map has the open field's snow.
+    float stays = snow_stays(up);
+    if (fresh) w.y *= stays;
+    float falls = rate / 3600.0 * facing;
+    water.b = collect(w.y, falls * wet_snow.x * stays, wet_snow.y, seconds);
+    float melted = 0.0;
+    if (seconds > 0.0) melted = (w.y + falls * wet_snow.x * stays * seconds - water.b) / seconds;
+    float inflow = falls * (1.0 - wet_snow.x) * gathers + max(melted, 0.0);
+    water.r = settle(w.x, inflow, film_capacity(up) + deep, seconds);
 }

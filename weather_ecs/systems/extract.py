@@ -159,6 +159,7 @@ class ExtractSystem:
             splash=self._splash,
             ripples=self._ripples.surfaces,
             wetness=state.wet_ground.data(),
+            snow_ground=state.snow_ground.data(),
             heightmap=self._heightmap,
             gauges=gauges,
             air=self._air,

@@ -6,6 +6,7 @@ import numpy as np
 
 from weather_ecs.clock import STEP, Clock
 from weather_ecs.frame import WindProfile
+from weather_ecs.physics.ground_law import SnowLaw
 from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.uids import Uids
 from weather_ecs.systems.wet_ground import WetGround
@@ -14,7 +15,18 @@ from weather_ecs.systems.wet_ground import WetGround
 class WeatherState:
     """One weather's state beyond its components. All of it goes into a snapshot."""
 
-    __slots__ = ("clock", "fronts", "profile", "rng", "seed", "step", "uids", "wet_ground", "wind")
+    __slots__ = (
+        "clock",
+        "fronts",
+        "profile",
+        "rng",
+        "seed",
+        "snow_ground",
+        "step",
+        "uids",
+        "wet_ground",
+        "wind",
+    )
 
     def __init__(self, seed: int) -> None:
         self.seed = seed
@@ -23,6 +35,7 @@ class WeatherState:
         self.uids = Uids()
         self.fronts = RainFronts()
         self.wet_ground = WetGround()
+        self.snow_ground = WetGround(SnowLaw())
         self.step = 0  # the fixed step that the systems are at
         self.wind = (0.0, 0.0, 0.0)  # m/s, world axes, at the reference height; of WindSystem
         self.profile = WindProfile()  # how that varies with height

@@ -1,4 +1,4 @@
-"""`WetnessSystem`: wets and dries the ground, once a second of weather."""
+"""`WetnessSystem`: wets and dries the ground and lays snow on it, once a second of weather."""
 
 from __future__ import annotations
 
@@ -10,13 +10,16 @@ from numpy.typing import NDArray
 from weather_ecs.components import RainArea
 from weather_ecs.frame import AREA_DTYPE, empty
 from weather_ecs.physics.front import on_level_ground
+from weather_ecs.physics.ground_law import SnowLaw
+from weather_ecs.physics.snow_cover import melt_rate
+from weather_ecs.systems.air import air_data
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.rain_area import area_rows, dry_spells
 from weather_ecs.systems.state import WeatherState
 
 
 class WetnessSystem:
-    """Shows the areas of every full second to `state.wet_ground`."""
+    """Shows the areas of every full second to `state.wet_ground` and `state.snow_ground`."""
 
     def __init__(self) -> None:
         self._list: list[Any] | None = None
@@ -24,11 +27,29 @@ class WetnessSystem:
         self._entities: list[int] = []
         self._rows = empty(AREA_DTYPE)
         self._changing = False  # rain begins or ends somewhere
+        self._parts: dict[str, tuple[NDArray, float, NDArray]] = {}
 
     def run(self, state: WeatherState) -> None:
         """One fixed step."""
-        if state.wet_ground.step():
-            state.wet_ground.tick(self._areas(state))
+        if not state.wet_ground.step():
+            return
+        rows, air = self._areas(state), air_data(state)
+        state.wet_ground.tick(self._part("rain", rows, 1.0 - air.snow_share))
+        melt = float(melt_rate(air.wet_bulb))
+        state.snow_ground.tick(self._part("snow", rows, air.snow_share), SnowLaw(melt))
+
+    def _part(self, name: str, rows: NDArray, share: float) -> NDArray:
+        """The areas with a share of what falls; the same array where nothing has changed."""
+        known = self._parts.get(name)
+        if known is not None and known[0] is rows and known[1] == share:
+            return known[2]
+        part = rows
+        if share < 1.0:
+            part = rows.copy()
+            part["rain_rate"] *= share
+            part.setflags(write=False)
+        self._parts[name] = (rows, share, part)
+        return part
 
     def _areas(self, state: WeatherState) -> NDArray:
         """The areas as rows; the same array as before where nothing has changed."""
