@@ -78,11 +78,12 @@ class SnowLook:
     """Looks of falling snow; see `components.SnowFlakes`."""
 
     model: str = "physical"  # or "liu_tong"
-    size: float = 2.5  # factor on the flake's diameter, look only
-    size_maximum: float = 5.0  # Eq. 3's factor at the container's rim
+    size: float = 4.0  # factor on the flake's diameter, look only
+    size_maximum: float = 7.0  # Eq. 3's factor at the container's rim
+    exposure: float = 1.0 / 90.0  # s, over which a flake in motion is drawn out
     flutter: float = 1.0  # factor on how far flakes sway
-    density: float = 2.0  # factor on how much the flakes cover: 1 is what nature shows
-    brightness: float = 1.0  # factor on the light of sky and ground that flakes show
+    density: float = 5.0  # factor on how much the flakes cover: 1 is what nature shows
+    brightness: float = 2.0  # factor on the light of sky and ground that flakes show
     opacity: float = 0.9  # greatest opacity of one flake
     aperture: float = 0.004  # m, of the eye or lens that sees near flakes out of focus
     veil: float = 1.0  # factor on the veil's extinction, look only

@@ -13,7 +13,7 @@ from weather_ecs.physics.snow_step import PERIOD
 SNOW = UniformBlock(
     "Snow",
     ("snow_motion", "vec4"),  # flutter, share of the swings' period, clumps' onset in mm, model
-    ("snow_look", "vec4"),  # m, of the eye's aperture; sun's share; 1 / shutter's blur; 0
+    ("snow_look", "vec4"),  # aperture in m, exposure in s
     ("snow_color", "vec4"),  # linear, what a flake shows of sky and ground
 )
 
@@ -31,5 +31,5 @@ def fill_snow(block: BlockBuffer, container: ContainerData, view: ViewData) -> N
     data = block.data
     onset = clump_onset(container.law[3])
     data["snow_motion"] = (look.flutter, time % PERIOD / PERIOD, onset, paper)
-    data["snow_look"] = (look.aperture, 0.0, 0.0, 0.0)
+    data["snow_look"] = (look.aperture, look.exposure, 0.0, 0.0)
     data["snow_color"][:3] = look.brightness * flake_light(view.frame.sky)

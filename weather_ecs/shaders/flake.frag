@@ -15,6 +15,8 @@ void main()
     vec2 seen = textureLod(flake_pictures, vec3(at * 0.5 + 0.5, gs_frame.x), gs_turn.w).rg;
     // The smallest pictures are even squares: their corners are cut off, as are blurred ones'.
     float r2 = dot(at, at);
-    float cover = seen.r * smoothstep(1.35, 0.6, r2);
+    // Of a small picture the gaps between the arms are gone, and they must not make it pale.
+    float cover = min(seen.r * mix(1.0, 4.0, smoothstep(0.5, 4.0, gs_turn.w)), 1.0);
+    cover *= smoothstep(1.35, 0.6, r2);
     color = vec4(gs_color.rgb * seen.g, gs_color.a * cover);
 }

@@ -19,6 +19,7 @@ out vec4 vs_turn;   // cosine and sine of the turn in the picture's plane, 1 / t
 
 const float SMALLEST = 1.7;  // pixels, diameter below which a flake gets fainter instead
 const float PICTURE = 64.0;  // texels on a side
+const float FILL = 0.25;     // share of its square that a picture covers, on average
 const float FOCUS = 6.0;     // m; what is closer gets softer
 // First layer of each kind and how many; as gpu/flake_texture.py.
 const ivec2 PLATES = ivec2(0, 12);
@@ -69,7 +70,7 @@ void main()
     size *= scale;
 
     // Relative to the camera, on the picture.
-    vec3 path = (in_velocity - camera_velocity.xyz) * camera_velocity.w;
+    vec3 path = (in_velocity - camera_velocity.xyz) * snow_look.y;
     vec4 tail = head - view_projection * vec4(path, 0.0);
     if (tail.w < 0.1) return;
     float per_metre = camera_position.w / head.w;
@@ -82,7 +83,7 @@ void main()
     float smear = length(way);
     // The disc's own area over that of what is drawn: the disc, blurred and drawn out.
     float spread = pixels * pixels / (shown * (shown + 1.273 * smear));
-    float opacity = min(covered / (0.785398 * size * size), drop_look.w) * min(spread * 1.25, 1.0);
+    float opacity = min(covered / (FILL * size * size), drop_look.w) * min(spread * 1.25, 1.0);
     opacity *= smoothstep(0.2, 0.7, head.w);
     if (opacity < 0.004) return;
 
