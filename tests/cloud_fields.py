@@ -45,6 +45,10 @@ FIELDS = {
         "height": ([5], [0, -0.5]),
         "depth": ([7.0], [0]),
         "roots": ([(), [CloudRoot()], ({"pitch": 90},)], [(1,), ({"pich": 90},), "x", CloudRoot()]),
+        "images": ([(), ["puff"]], ["puff", ("",), (1,), ("puff",) * 65]),
+        "size_factor": ([0.01, 100], [0, -1, 101]),
+        "aspect_factor": ([0.01, 100], [0, -1, 101]),
+        "turn_factor": ([0, 1], [-0.1, 1.1]),
     },
     CloudModel: {
         "name": (["a", "Fair day 2", "x" * 64], ["", "2nd", "x" * 65, "a/b", b"a"]),
@@ -95,6 +99,7 @@ FIELDS = {
         "velocity": ([(150, -150)], [(151, 0)]),
         "drift": ([0, 1], [-0.1, 1.1]),
         "shear": ([(-10, 10)], [(11, 0)]),
+        "turnover": ([0.0, 1e6], [-1, 1e7, math.nan]),
     },
     Climate: {
         "initial": ([0, 1], [-0.1, 1.1]),

@@ -13,7 +13,7 @@ from weather_ecs.frame import BILLBOARD_DTYPE
 from weather_ecs.physics import reproduction
 from weather_ecs.physics.cloud_images import CLOUD_IMAGES
 from weather_ecs.physics.cloud_shape import bounding_radius, shape
-from weather_ecs.physics.reproduction import billboards, level_counts, reproduce
+from weather_ecs.physics.reproduction import Boxes, billboards, descend, level_counts, reproduce
 
 
 def model(*roots: CloudRoot, **fields: object) -> CloudModel:
@@ -124,12 +124,16 @@ def test_too_many_seeds_stop_before_they_are_made():
         reproduce(it2, rng())
 
 
-BOXES = np.array([[0, 50, 0], [200, 300, -50]]), np.array([[100, 100, 100], [60, 20, 80]])
+BOXES = Boxes(
+    np.array([[0, 50, 0], [200, 300, -50]], float),
+    np.array([[100, 100, 100], [60, 20, 80]], float),
+    np.array([0, 0]),
+)
 
 
 def spread(n: int = 500, **fields: object) -> np.ndarray:
     fields = {"size_min": 10, "size_max": 30, **fields}
-    return billboards(model(billboards_min=n, billboards_max=n, **fields), *BOXES, rng())
+    return billboards(model(billboards_min=n, billboards_max=n, **fields), BOXES, rng())
 
 
 def test_billboards_are_what_the_frame_has():
@@ -137,8 +141,8 @@ def test_billboards_are_what_the_frame_has():
 
 
 def test_the_number_of_billboards_is_drawn_for_each_seed():
-    boxes = np.zeros((4000, 3)), np.ones((4000, 3))
-    got = billboards(model(billboards_min=2, billboards_max=5), *boxes, rng())
+    boxes = Boxes(np.zeros((4000, 3)), np.ones((4000, 3)), np.zeros(4000, int))
+    got = billboards(model(billboards_min=2, billboards_max=5), boxes, rng())
     counts = np.bincount(np.bincount(got["seed"], minlength=4000))
     assert counts[:2].tolist() == [0, 0]
     assert counts[2:] == pytest.approx([1000] * 4, abs=140)
@@ -146,7 +150,7 @@ def test_the_number_of_billboards_is_drawn_for_each_seed():
 
 def test_billboards_fill_their_boxes():
     got = spread(roundness=0.0)
-    for index, (center, size) in enumerate(zip(*BOXES, strict=True)):
+    for index, (center, size) in enumerate(zip(*BOXES[:2], strict=True)):
         inside = (got["position"][got["seed"] == index] - center) / (0.5 * size)
         assert np.all(np.abs(inside) <= 1.0 + 1e-6)
         assert np.abs(inside).max(axis=0) == pytest.approx(1.0, abs=0.02)
@@ -155,7 +159,7 @@ def test_billboards_fill_their_boxes():
 
 def test_round_seeds_keep_to_the_ellipsoid():
     got = spread(roundness=1.0)
-    for index, (center, size) in enumerate(zip(*BOXES, strict=True)):
+    for index, (center, size) in enumerate(zip(*BOXES[:2], strict=True)):
         inside = (got["position"][got["seed"] == index] - center) / (0.5 * size)
         reach = np.linalg.norm(inside, axis=1)
         assert reach.max() == pytest.approx(1.0, abs=0.01)
@@ -215,3 +219,26 @@ def test_the_radius_reaches_the_farthest_corner():
     assert bounding_radius(*boxes) == pytest.approx((49 + 9 + 49) ** 0.5)
     with pytest.raises(InvalidValueError):
         bounding_radius(np.zeros((0, 3)), np.zeros((0, 3)))
+
+
+def test_boxes_know_their_seeds_and_seeds_have_billboards_of_their_own():
+    root = CloudRoot(reproductions_min=1, reproductions_max=1, seeds_start=40)
+    own = CloudSeed(
+        roots=(root,), images=("streak",), size_factor=3, aspect_factor=0.5, turn_factor=0
+    )
+    it = CloudModel("two", (CloudSeed(roots=(root,)), own), 5, 5, 10, 20, aspect=0.8)
+    boxes = descend(it, rng())
+    assert boxes.seeds.tolist() == [0] * 41 + [1] * 41
+    got = billboards(it, boxes, rng())
+    mine = got["seed"] >= 41
+    kinds = [
+        {CLOUD_IMAGES[i].split("_")[0] for i in got["image"][which]} for which in (~mine, mine)
+    ]
+    assert kinds == [{"puff"}, {"streak"}]
+    assert np.unique(got["image"]).tolist() == [
+        i for i, name in enumerate(CLOUD_IMAGES) if name.startswith(("puff", "streak"))
+    ]
+    assert 30 <= got["size"][mine, 0].min() < 31 and 59 < got["size"][mine, 0].max() <= 60
+    assert got["size"][~mine, 0].max() <= 20
+    assert got["size"][mine, 1] == pytest.approx(0.4 * got["size"][mine, 0])
+    assert not got["turn"][mine].any() and got["turn"][~mine].all()

@@ -165,10 +165,7 @@ def _file(document: Mapping[str, Any]) -> CloudFile:
     for index, model in enumerate(models):
         if model.name in names[:index]:
             raise _BadError(("models", index, "name"), model.name, "names that all differ")
-        try:
-            image_indices(model.images)
-        except InvalidValueError as error:
-            raise _BadError(("models", index, "images"), error.value, error.allowed) from None
+        _images(model, ("models", index))
     usable = {*names, *CLOUD_MODELS}
     for index, cloud in enumerate(clouds):
         _named([cloud.model], usable, ("clouds", index, "model"))
@@ -182,6 +179,16 @@ def _file(document: Mapping[str, Any]) -> CloudFile:
         tuple(layers),
         None if climate is None else _one(Climate, climate, ("climate",)),
     )
+
+
+def _images(model: CloudModel, path: toml_text.Path) -> None:
+    where = [(path, model.images)]
+    where += [((*path, "seeds", i), seed.images) for i, seed in enumerate(model.seeds)]
+    for place, images in where:
+        try:
+            image_indices(images)
+        except InvalidValueError as error:
+            raise _BadError((*place, "images"), error.value, error.allowed) from None
 
 
 def _names(value: Any, path: toml_text.Path) -> None:

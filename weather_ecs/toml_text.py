@@ -61,7 +61,8 @@ def _value(value: Any) -> str:
 
 def line_of(text: str, path: Path) -> int | None:
     """Line (from 1) of a value, or of the nearest table round it; None where it cannot be told."""
-    best, depth, here = None, 0, ()
+    best: int | None = None
+    depth, here = 0, Path()
     counts: dict[Path, int] = {}
     quoted = ""
     for number, line in enumerate(text.split("\n"), 1):
@@ -74,7 +75,7 @@ def line_of(text: str, path: Path) -> int | None:
             at = here
         else:
             key = _KEY.match(line)
-            at = (*here, key[1]) if key else ()
+            at = (*here, key[1]) if key else Path()
         if len(at) > depth and path[: len(at)] == at:
             best, depth = number, len(at)
         quoted = next((mark for mark in ('"""', "'''") if line.count(mark) % 2), "")
@@ -84,7 +85,7 @@ def line_of(text: str, path: Path) -> int | None:
 def _opened(name: str, repeated: bool, counts: dict[Path, int]) -> Path:
     """The place of a table whose header was read, with the indices of the arrays it stands in."""
     parts = [part.strip() for part in name.split(".")]
-    here: Path = ()
+    here = Path()
     for index, part in enumerate(parts):
         here = (*here, part)
         if repeated and index == len(parts) - 1:

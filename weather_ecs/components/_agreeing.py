@@ -67,14 +67,14 @@ def a_name() -> Check:
     return check
 
 
-def some_names(most: int) -> Check:
-    """A check for one to `most` names."""
-    allowed = f"1 to {most} names, in a tuple or list"
+def some_names(least: int, most: int) -> Check:
+    """A check for `least` to `most` names."""
+    allowed = f"{least} to {most} names, in a tuple or list"
     one = a_name()
 
     def check(field: str, value: Any) -> tuple[str, ...]:
         items = _items(field, value, most, allowed)
-        if not items:
+        if len(items) < least:
             raise InvalidValueError(field, value, allowed)
         return tuple([one(field, item) for item in items])
 

@@ -49,7 +49,7 @@ class CloudModel(Agreeing):
         "billboards_max": integer(1, 10_000),
         "size_min": number(1.0e-3, 1.0e6),
         "size_max": number(1.0e-3, 1.0e6),
-        "images": some_names(64),
+        "images": some_names(1, 64),
         "light_penetration": number(0.0, float("inf"), above=True),
         "roundness": number(0.0, 1.0),
         "flatness": number(0.0, 1.0),

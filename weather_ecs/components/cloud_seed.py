@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from weather_ecs.components._agreeing import Agreeing, parts
+from weather_ecs.components._agreeing import Agreeing, parts, some_names
 from weather_ecs.components._base import Check, number, vector
 from weather_ecs.components.cloud_root import CloudRoot
 
@@ -17,7 +17,8 @@ LARGEST = 1.0e6  # m
 class CloudSeed(Agreeing):
     """A progenitor seed of a model (Torchelsen 2005, 3.1): an axis-aligned box, with its roots.
 
-    Seeds that its roots add have its size.
+    Seeds that its roots add are like it. Its billboards are the model's, but for images of its own
+    and factors on their size, shape and turn.
     """
 
     center: tuple[float, float, float] = (0.0, 0.0, 0.0)  # m, the model's axes, y up; within 1e6
@@ -25,6 +26,10 @@ class CloudSeed(Agreeing):
     height: float = 100.0  # m, along y
     depth: float = 100.0  # m, along z
     roots: tuple[CloudRoot, ...] = ()  # at most 256
+    images: tuple[str, ...] = ()  # in place of the model's; none: the model's
+    size_factor: float = 1.0  # 0.01 to 100, on the model's billboard sizes
+    aspect_factor: float = 1.0  # 0.01 to 100, on the model's aspect
+    turn_factor: float = 1.0  # 0 to 1, on the model's turn
 
     checks: ClassVar[dict[str, Check]] = {
         "center": vector(3, -LARGEST, LARGEST),
@@ -32,6 +37,10 @@ class CloudSeed(Agreeing):
         "height": number(SMALLEST, LARGEST),
         "depth": number(SMALLEST, LARGEST),
         "roots": parts(CloudRoot, 256),
+        "images": some_names(0, 64),
+        "size_factor": number(0.01, 100.0),
+        "aspect_factor": number(0.01, 100.0),
+        "turn_factor": number(0.0, 1.0),
     }
 
     @property

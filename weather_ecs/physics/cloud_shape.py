@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.checks import count, floats
-from weather_ecs.physics.reproduction import billboards, reproduce
+from weather_ecs.physics.reproduction import Boxes, billboards, descend
 
 
 class CloudShape(NamedTuple):
@@ -35,11 +35,11 @@ def shape(model: Any, number: int) -> CloudShape:
     # The name's checksum keeps two models of the same seeds apart.
     entropy = [zlib.crc32(str(model.name).encode()), count("number", number)]
     rng = np.random.Generator(np.random.PCG64(np.random.SeedSequence(entropy)))
-    boxes, sides = reproduce(model, rng)
-    low, high = (boxes - 0.5 * sides).min(axis=0), (boxes + 0.5 * sides).max(axis=0)
-    centers = (boxes - 0.5 * (low + high)).astype(np.float32)
-    sizes = sides.astype(np.float32)
-    shown = billboards(model, centers, sizes, rng)
+    found, sides, seeds = descend(model, rng)
+    low, high = (found - 0.5 * sides).min(axis=0), (found + 0.5 * sides).max(axis=0)
+    middle = found - 0.5 * (low + high)
+    shown = billboards(model, Boxes(middle, sides, seeds), rng)
+    centers, sizes = middle.astype(np.float32), sides.astype(np.float32)
     for array in (centers, sizes, shown):
         array.setflags(write=False)
     half = 0.5 * (high - low)

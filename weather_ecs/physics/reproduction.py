@@ -7,10 +7,10 @@ After R. P. Torchelsen, "Modelo para simulação em tempo-real de nuvens usando 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.checks import FloatArray, floats
@@ -33,6 +33,14 @@ BILLBOARDS = np.dtype(
 )
 
 
+class Boxes(NamedTuple):
+    """The boxes of one cloud."""
+
+    centers: FloatArray  # (n, 3), m, the model's axes
+    sizes: FloatArray  # (n, 3), m, whole sides
+    seeds: NDArray[np.intp]  # (n,), index of the model's seed that each is, or descends from
+
+
 def reproduce(model: Any, rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
     """Centres and whole sides of the boxes of one cloud, (n, 3) both, m, in the model's axes.
 
@@ -41,8 +49,14 @@ def reproduce(model: Any, rng: np.random.Generator) -> tuple[FloatArray, FloatAr
     the sphere through the box's corners, the direction the root's, turned at random by up to half
     of its openings. The number of levels is drawn between the root's minimum and maximum.
     """
+    boxes = descend(model, rng)
+    return boxes.centers, boxes.sizes
+
+
+def descend(model: Any, rng: np.random.Generator) -> Boxes:
+    """What `reproduce` gives, and which seed of the model each box comes from."""
     centers: list[FloatArray] = []
-    sizes: list[FloatArray] = []
+    sides: list[FloatArray] = []
     total = 0
     for seed in model.seeds:
         center = floats("center", seed.center)
@@ -57,12 +71,12 @@ def reproduce(model: Any, rng: np.random.Generator) -> tuple[FloatArray, FloatAr
                 raise InvalidValueError("seeds", f"{total} or more", f"at most {MOST_SEEDS}")
             radius = 0.5 * float(np.linalg.norm(size))
             added.append(center + _directions(root, len(steps), rng) * (radius * steps)[:, None])
-        here = np.concatenate(added)
-        centers.append(here)
-        sizes.append(np.broadcast_to(size, here.shape))
+        centers.append(np.concatenate(added))
+        sides.append(size)
     if not centers:
         raise InvalidValueError("seeds", model.seeds, "at least one seed")
-    return np.concatenate(centers), np.concatenate(sizes)
+    seeds = np.repeat(np.arange(len(centers)), [len(each) for each in centers])
+    return Boxes(np.concatenate(centers), np.array(sides)[seeds], seeds)
 
 
 def level_counts(start: int, end: int, levels: int) -> NDArray[np.int64]:
@@ -87,42 +101,56 @@ def image_indices(names: Sequence[str]) -> list[int]:
     return found
 
 
-def billboards(
-    model: Any, centers: ArrayLike, sizes: ArrayLike, rng: np.random.Generator
-) -> NDArray:
+def billboards(model: Any, boxes: Boxes, rng: np.random.Generator) -> NDArray:
     """Billboards of a cloud in its boxes, an array of BILLBOARDS; positions in the boxes' axes.
 
     `roundness` draws them from the whole box towards the ellipsoid in it. `flatness` lifts those
     that would hang below the lowest box until they stand on its bottom. `order` is 0 for the one
     nearest to the cloud's middle and rises evenly to 1 at the rim.
     """
-    boxes, sides = floats("centers", centers), floats("sizes", sizes, 0.0)
-    if len(boxes) * model.billboards_max > MOST_BILLBOARDS:
-        count = len(boxes) * model.billboards_max
+    centers, sides = boxes.centers, boxes.sizes
+    if len(centers) * model.billboards_max > MOST_BILLBOARDS:
+        count = len(centers) * model.billboards_max
         raise InvalidValueError("billboards_max", f"{count} in all", f"at most {MOST_BILLBOARDS}")
-    counts = rng.integers(model.billboards_min, model.billboards_max + 1, len(boxes))
-    seed = np.repeat(np.arange(len(boxes)), counts)
-    n = len(seed)
+    counts = rng.integers(model.billboards_min, model.billboards_max + 1, len(centers))
+    box = np.repeat(np.arange(len(centers)), counts)
+    n = len(box)
+    origin = boxes.seeds[box]
     place = rng.uniform(-1.0, 1.0, (n, 3))
     reach = np.linalg.norm(place, axis=1)
     to_ball = np.abs(place).max(axis=1, initial=0.0) / np.where(reach > 0.0, reach, 1.0)
     place *= (1.0 + model.roundness * (to_ball - 1.0))[:, None]
-    position = boxes[seed] + 0.5 * sides[seed] * place
-    width = rng.uniform(model.size_min, model.size_max, n)
-    height = width * model.aspect
-    low = float((boxes[:, 1] - 0.5 * sides[:, 1]).min())
+    position = centers[box] + 0.5 * sides[box] * place
+    width = rng.uniform(model.size_min, model.size_max, n) * _each(model, "size_factor", origin)
+    height = width * model.aspect * _each(model, "aspect_factor", origin)
+    low = float((centers[:, 1] - 0.5 * sides[:, 1]).min())
     lift = np.maximum(0.0, low + 0.5 * height - position[:, 1])
     position[:, 1] += model.flatness * lift
+    turn = np.radians(model.turn) * _each(model, "turn_factor", origin)
 
     result = np.zeros(n, BILLBOARDS)
     result["position"] = position
     result["size"] = np.stack((width, height), axis=1)
-    result["turn"] = np.radians(rng.uniform(-model.turn, model.turn, n))
-    result["image"] = rng.choice(image_indices(model.images), n)
-    result["seed"] = seed
+    result["turn"] = rng.uniform(-1.0, 1.0, n) * turn
+    result["image"] = _images(model, origin, rng)
+    result["seed"] = box
     result["order"] = _order(position)
     result["opacity"] = model.opacity
     return result
+
+
+def _each(model: Any, field: str, origin: NDArray[np.intp]) -> FloatArray:
+    """A field of the model's seeds, for each of the seeds `origin`."""
+    return np.array([getattr(seed, field) for seed in model.seeds], np.float64)[origin]
+
+
+def _images(model: Any, origin: NDArray[np.intp], rng: np.random.Generator) -> NDArray[np.int64]:
+    """Images drawn from the lists of the seeds, or the model's where a seed has none."""
+    lists = [image_indices(seed.images or model.images) for seed in model.seeds]
+    counts = np.array([len(each) for each in lists])
+    starts = np.cumsum(counts) - counts
+    drawn = np.minimum(rng.random(len(origin)) * counts[origin], counts[origin] - 1)
+    return np.concatenate(lists)[starts[origin] + drawn.astype(np.int64)]
 
 
 def _steps(root: Any, rng: np.random.Generator) -> NDArray[np.int64]:
