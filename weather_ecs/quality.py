@@ -28,13 +28,17 @@ class QualitySettings:
     heightmap_size: int  # texels on a side of the map of what the rain hits
     veil: bool  # rain beyond the containers
     budget: float = 1.0  # share of the drops that is used, 0.05 to 1
+    cloud_billboards: int = 3_000  # of the clouds that are not impostors
+    cloud_impostors: int = 3  # pictures of far clouds taken in one draw
+    cloud_tile: int = 256  # texels, height of the largest of them; they are twice as wide
+    cloud_atlas: int = 2048  # texels, height of the texture that holds them; twice as wide
 
 
 LEVELS: dict[str, QualitySettings] = {
-    "low": QualitySettings("low", 6_000, 2, 256, True),
+    "low": QualitySettings("low", 6_000, 2, 256, True, 1.0, 1_500, 2, 128, 1024),
     "medium": QualitySettings("medium", 14_000, 4, 512, True),
-    "high": QualitySettings("high", 50_000, 8, 1024, True),
-    "ultra": QualitySettings("ultra", 120_000, 16, 2048, True),
+    "high": QualitySettings("high", 50_000, 8, 1024, True, 1.0, 12_000, 6, 512, 4096),
+    "ultra": QualitySettings("ultra", 120_000, 16, 2048, True, 1.0, 40_000, 16, 1024, 4096),
     # Everything that would be seen to jump is fixed; the share of the drops glides.
     "auto": QualitySettings("auto", 120_000, 8, 512, True, _FIRST_BUDGET),
 }
@@ -46,6 +50,10 @@ _CHECKS = {
     "heightmap_size": integer(16, 8192),
     "veil": flag(),
     "budget": number(LOWEST_BUDGET, 1.0),
+    "cloud_billboards": integer(0, 10_000_000),
+    "cloud_impostors": integer(1, 1024),
+    "cloud_tile": integer(16, 2048),
+    "cloud_atlas": integer(256, 8192),
 }
 
 

@@ -69,7 +69,9 @@ def _step(low: float, high: float, value: Image) -> Image:
     return t * t * (3.0 - 2.0 * t)
 
 
-def _texels(height: Image, shade: Image, cover: Image) -> NDArray[np.uint8]:
+def _texels(
+    height: NDArray[np.floating], shade: NDArray[np.floating], cover: NDArray[np.floating]
+) -> NDArray[np.uint8]:
     """Relief from a height in units of the image's half-width, and the rest, as bytes."""
     slope_y, slope_x = np.gradient(height, 2.0 / SIZE)
     # No billboard may show its own square: nothing is left at the image's rim.
@@ -121,14 +123,18 @@ def _raise(height: Image, x: float, y: float, z: float, radius: float) -> None:
 
 def _puff(rng: np.random.Generator, number: int) -> NDArray[np.uint8]:
     height, coarse = _knobs(rng, 1.0 + 0.10 * (number % 3))
-    fine = _noise(rng, 1.5)
+    fine, frayed = _noise(rng, 1.5), _noise(rng, 1.9)
     body = np.maximum(height, -0.1)
-    # Depth of the heap behind each point is what the rim fades with: crisp, but no knife's edge.
-    smooth = _blur(body, 2.0)
-    cover = _step(-0.03, 0.26, smooth + 0.045 * fine)
-    hollow = _blur(body, 9.0) - smooth
-    shade = 0.92 - 2.3 * np.maximum(hollow, -0.03) + 0.025 * fine
-    relief = 0.42 * _blur(body, 3.0) + 0.35 * _blur(np.maximum(coarse, -0.1), 7.0) + 0.004 * fine
+    smooth = _blur(body, 1.5)
+    # The rim is crisp in some places and frays in others, as where dry air is drawn in.
+    cover = 0.96 * _step(-0.04, 0.46, smooth + 0.045 * fine + 0.07 * frayed)
+    # Light that has been scattered many times leaves only the broadest hollows dark.
+    hollow = _blur(body, 10.0) - _blur(body, 3.0)
+    shade = 0.955 - 0.75 * np.clip(hollow, -0.06, 0.2) + 0.012 * fine
+    rounded = _blur(np.maximum(coarse, 0.0), 6.0)
+    knobs = _blur(np.maximum(body, 0.0), 2.5)
+    dome = _blur(np.maximum(body, 0.0), 14.0)
+    relief = 0.40 * dome + 0.30 * (rounded - dome) + 0.42 * (knobs - dome)
     return _texels(relief, shade, cover)
 
 
@@ -158,7 +164,7 @@ def _streak(rng: np.random.Generator, number: int) -> NDArray[np.uint8]:
     tufts = _noise(rng, 2.2, (0.35, 0.8))
     # Fibres bend as falling ice does in sheared wind.
     bend = np.clip((_Y + (0.10 + 0.06 * number) * (_X * _X) + 1.0) * 0.5 * SIZE, 0, SIZE - 1)
-    fibres = fibres[bend.astype(np.intp), np.arange(SIZE)[None, :]]
+    fibres = np.take_along_axis(fibres, bend.astype(np.intp), axis=0)
     ends = 1.0 - _step(0.35, 0.95, np.abs(_X) + 0.10 * tufts)
     sides = 1.0 - _step(0.20, 0.88, np.abs(_Y) + 0.08 * tufts)
     body = (0.50 + 0.26 * fibres + 0.16 * tufts) * ends * sides
@@ -174,7 +180,7 @@ def _sheet(rng: np.random.Generator, number: int) -> NDArray[np.uint8]:
     return _texels(height, 0.93 + 0.025 * number * broad, cover)
 
 
-def _blur(image: Image, sigma: float) -> Image:
+def _blur(image: NDArray[np.floating], sigma: float) -> Image:
     """Gaussian of sigma texels, by the spectrum."""
     fx = np.fft.rfftfreq(SIZE).astype(np.float32)
     fy = np.fft.fftfreq(SIZE).astype(np.float32)

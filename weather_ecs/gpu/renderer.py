@@ -10,6 +10,7 @@ import numpy as np
 from weather_ecs.errors import ContextError, InvalidValueError
 from weather_ecs.frame import GaugeReading, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.cloud_pass import CloudPass, CloudSettings
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.depth import DepthCopy
 from weather_ecs.gpu.fog_pass import FogPass
@@ -32,7 +33,7 @@ from weather_ecs.gpu.wetness_pass import WetnessPass
 from weather_ecs.physics.footprint import fall_speed_over, landing_wind
 
 
-class Settings(Protocol):
+class Settings(CloudSettings, Protocol):
     """What the renderer needs of the quality settings."""
 
     @property
@@ -95,6 +96,7 @@ class Renderer:
         self._ripples = keep(RipplePass(ctx, shaders, rain))
         self._gauges = keep(GaugePass(ctx, shaders, rain))
         self._wetness = keep(WetnessPass(ctx, gl, shaders))
+        self._clouds = keep(CloudPass(ctx, shaders))
         self._fog = keep(FogPass(ctx, shaders))
         self._veil = keep(VeilPass(ctx, shaders))
         self._view_block = keep(BlockBuffer(ctx, RAIN_VIEW))
@@ -112,6 +114,11 @@ class Renderer:
     def rain(self) -> RainPass:
         """The drops; for tests and benchmarks."""
         return self._rain
+
+    @property
+    def clouds(self) -> CloudPass:
+        """The clouds; for tests and benchmarks."""
+        return self._clouds
 
     @property
     def ripples(self) -> RipplePass:
@@ -145,7 +152,8 @@ class Renderer:
         wet_map = self._wetness.needs_map(view)
         wets = wet_map or self._wetness.needs_update(view)
         fog = self._fog.draws(view)
-        if not (view.containers or view.veils or view.frame.ripples or wets or fog):
+        clouds = self._clouds.draws(view)
+        if not (view.containers or view.veils or view.frame.ripples or wets or fog or clouds):
             return
         with self._guard as guard:
             viewport = guard.viewport
@@ -171,8 +179,13 @@ class Renderer:
             self._gauges.update(view, sheltered)
             if wets:
                 self._wetness.update(view, self._maps.get(view.key) if sheltered else None)
+            if clouds:
+                self._clouds.update(view, settings, viewport[3])
+                self.stats.update(self._clouds.stats)
             guard.bind_framebuffer()
             self._draw_fog(view)
+            if clouds:
+                self._draw_clouds(view, viewport)
             self._draw_ripples(view)
             self._draw_veils(view)
             self._draw_splashes(view, sheltered)
@@ -221,6 +234,13 @@ class Renderer:
         self._gl.glDepthMask(0)
         self._ripples.draw(view, depth)
 
+    def _draw_clouds(self, view: ViewData, viewport: tuple[int, int, int, int]) -> None:
+        depth = self._copy_depth() if self._clouds.near_scene else None
+        self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
+        self._gl.glDepthMask(0)
+        self._clouds.set_origin(viewport[0], viewport[1])
+        self._clouds.draw(view, depth)
+
     def _draw_fog(self, view: ViewData) -> None:
         if not self._fog.draws(view):
             return
@@ -265,6 +285,7 @@ class Renderer:
             self._splash.forget(key)
             self._rain.forget(key)
             self._ripples.forget(key)
+            self._clouds.forget(key)
             self._wetness.forget(key)
             if heightmap is not None:
                 heightmap.release()

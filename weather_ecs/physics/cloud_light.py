@@ -107,7 +107,9 @@ def full_light(
     silver, bases, ambience = look
     q = v / body.half_size
     whole, own = q / body.half_size, v - s
-    n = 0.65 * whole / np.maximum(_length(whole), 1e-9) + 0.35 * own / np.maximum(_length(own), 1e-3)
+    n = 0.65 * whole / np.maximum(_length(whole), 1e-9) + 0.35 * own / np.maximum(
+        _length(own), 1e-3
+    )
     n = n / np.maximum(_length(n), 1e-6)
     rise = np.clip((v[..., 1] - body.base) / (2.0 * body.half_size[1]), 0.0, 1.0)
     towards = n @ light.direction

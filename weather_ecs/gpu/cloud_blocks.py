@@ -1,0 +1,17 @@
+"""Uniform blocks of the clouds: declared here once, used by numpy and by GLSL."""
+
+from __future__ import annotations
+
+from weather_ecs.gpu.blocks import UniformBlock
+
+CLOUD_VIEW = UniformBlock(
+    "CloudView",
+    ("cloud_sun", "vec4"),  # unit, towards the sun
+    ("cloud_sun_color", "vec4"),  # linear, as all here
+    ("cloud_above", "vec4"),  # light of the sky from above
+    ("cloud_below", "vec4"),  # light from the ground and the air below
+    ("cloud_ambient", "vec4"),  # of the plain model
+    ("cloud_look", "vec4"),  # lining, bases, ambient; 1 for the plain model
+    ("cloud_depth", "vec4"),  # depth = y / (ndc + x)
+    ("cloud_origin", "vec4"),  # pixels, of the viewport; softness
+)

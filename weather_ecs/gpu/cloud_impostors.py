@@ -1,0 +1,284 @@
+"""Impostors (Harris and Lastra 2001): which clouds are drawn as pictures, and when those are taken.
+
+A picture is taken from the camera's place towards the cloud, so turning the camera changes nothing;
+it is taken again when the view angle, the size, the light or the cloud has changed too far, a few
+in a frame, and then gives way to the new one over half a second.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.gpu.cloud_atlas import Atlas, Tile
+from weather_ecs.gpu.cloud_scene import CloudScene
+from weather_ecs.physics.cloud_view import picture_axes
+
+KEPT_DTYPE = np.dtype(
+    [
+        ("tile", "i4", 3),  # column, row, height; height 0: there is no picture
+        ("old_tile", "i4", 3),
+        ("share", "f4"),  # of the newer picture
+        ("quad", "f8", (3, 3)),  # middle from the cloud's position, half width, half height, m
+        ("old_quad", "f8", (3, 3)),
+        ("way", "f8", 3),  # from the camera to the cloud, when it was taken
+        ("version", "i8"),  # of the shape's absorption
+        ("shape", "i8"),  # the shape's key
+        ("stamp", "i8"),  # of sky and look
+        ("state", "f4", 5),  # growth, mode, darkness, shear
+        ("seen", "i8"),  # draw at which it was last in the picture
+        ("real", "?"),  # drawn with billboards at the last draw
+    ]
+)
+
+FADE = 0.5  # s, in which a new picture replaces the old one
+CLOSE = 1.35  # reaches from a cloud's centre, nearer than which there are no impostors
+PIXELS_OFF = 1.3  # parallax that is let be
+_STATE = np.array([0.04, 0.05, 0.06, 0.04, 0.04])  # changes that are let be
+
+
+@dataclass(slots=True)
+class Plan:
+    """What one draw does with the visible clouds."""
+
+    real: NDArray[np.intp]  # with billboards
+    take: list[tuple[int, int]]  # (cloud, height of the tile)
+    lost: int = 0  # clouds that found no room
+
+
+class Impostors:
+    """The pictures of one observer's clouds; `kept` is aligned with `FrameData.clouds`."""
+
+    def __init__(self, ctx: moderngl.Context, height: int) -> None:
+        self.atlas = Atlas(ctx, height)
+        self.kept = np.zeros(0, KEPT_DTYPE)
+        self._keys = np.zeros(0, np.int64)
+        self._draws = 0
+        self._stamp = 0
+        self._light: NDArray[np.float64] | None = None
+
+    def follow(self, scene: CloudScene, light: NDArray[np.float64], dt: float) -> None:
+        """Take over the clouds of a draw. light: all that is not a cloud's own, as numbers."""
+        self._draws += 1
+        keys = scene.clouds["key"]
+        if not np.array_equal(keys, self._keys):
+            self._remap(keys)
+        if self._light is None or len(light) != len(self._light):
+            self._light = light
+        elif float(np.abs(light - self._light).max()) > 0.02:
+            self._light = light
+            self._stamp += 1
+        kept = self.kept
+        kept["seen"][scene.visible] = self._draws
+        fading = np.flatnonzero(kept["share"] < 1.0)
+        if len(fading):
+            kept["share"][fading] += dt / FADE
+            for index in fading[kept["share"][fading] >= 1.0]:
+                self._give_old(int(index))
+
+    def _remap(self, keys: NDArray) -> None:
+        """The clouds are other ones: keep what belongs to those that stay."""
+        old = self.kept
+        self.kept = np.zeros(len(keys), KEPT_DTYPE)
+        self.kept["share"] = 1.0
+        order = np.argsort(self._keys, kind="stable")
+        place = np.searchsorted(self._keys, keys, sorter=order)
+        place = np.minimum(place, max(len(order) - 1, 0))
+        if len(order):
+            source = order[place]
+            same = self._keys[source] == keys
+            self.kept[same] = old[source[same]]
+            gone = np.ones(len(old), bool)
+            gone[source[same]] = False
+            for index in np.flatnonzero(gone):
+                self._release_tiles(old[index])
+        self._keys = keys.copy()
+
+    def plan(
+        self, scene: CloudScene, versions: NDArray, counts: NDArray, most: int, budget: int,
+        largest: int,
+    ) -> Plan:  # fmt: skip
+        """Sort the visible clouds into billboards and impostors, and choose what to take anew.
+
+        versions, counts: of the shapes' light and billboards, by cloud; most: billboards in all;
+        budget: pictures taken in one draw; largest: height of a tile.
+        """
+        kept = self.kept
+        has = kept["tile"][:, 2] > 0
+        has &= kept["shape"] == versions[:, 0]
+        size = scene.pixels
+        near = scene.away < CLOSE * scene.reach
+        # Once drawn with billboards, a cloud stays so until it is clearly smaller.
+        limit = largest * np.where(kept["real"], 0.85, 1.0)
+        wants = scene.visible & (near | (size > limit) | (scene.clouds["flash"] > 0.0))
+        if scene.parallel:
+            wants = near = scene.visible
+        error = self._errors(scene, versions[:, 1], size, largest)
+        error[~has] = np.inf
+
+        # With billboards: those that must, the nearest first, then those that wait for a picture.
+        rank = np.lexsort((scene.away, ~wants, ~near))
+        candidates = rank[(scene.visible & (wants | ~has))[rank]]
+        fits = (np.cumsum(counts[candidates]) <= most) | near[candidates]
+        real = candidates[fits]
+        is_real = np.zeros(len(kept), bool)
+        is_real[real] = True
+        kept["real"] = is_real
+
+        must = np.flatnonzero(scene.visible & ~has & ~is_real)
+        stale = ~near & (error > 1.0) & (scene.visible | ~has)
+        stale &= ~(wants & is_real)
+        stale[must] = False
+        if scene.parallel:
+            stale[:] = False
+        error = np.where(scene.visible, error, 1.0 + 1.0 / (1.0 + scene.away))
+        chosen = np.flatnonzero(stale)
+        urgency = np.minimum(error[chosen], 1e6) * np.where(scene.visible[chosen], 1e3, 1.0)
+        urgency += 1e-3 / (1.0 + scene.away[chosen])
+        chosen = chosen[np.argsort(-urgency, kind="stable")]
+        plan = Plan(real, [])
+        room = budget * 64.0 * 64.0
+        for index in (*must.tolist(), *chosen[:budget].tolist()):
+            side = _side(float(size[index]), largest)
+            forced = len(plan.take) < len(must)
+            if not forced and plan.take and side * side > room:
+                continue
+            room -= side * side
+            plan.take.append((index, side))
+        return plan
+
+    def _errors(
+        self, scene: CloudScene, versions: NDArray, size: NDArray, largest: int
+    ) -> NDArray[np.float64]:
+        """How far each picture is from the truth; 1 is what is let be."""
+        kept = self.kept
+        way = scene.center / np.maximum(scene.away, 1e-6)[:, None]
+        turned = np.linalg.norm(way - kept["way"], axis=1)
+        error = turned * size / PIXELS_OFF
+        wanted = np.minimum(size, largest)
+        have = np.maximum(kept["tile"][:, 2], 1)
+        error = np.maximum(error, np.log2(np.maximum(wanted / have, 1e-6)) / 0.35)
+        error = np.maximum(error, -np.log2(np.maximum(wanted / have, 1e-6)) / 2.2)
+        error = np.maximum(error, 0.6 * (self._stamp - kept["stamp"]) + 0.5)
+        error = np.maximum(error, np.where(kept["version"] != versions, 1.5, 0.0))
+        change = np.abs(_state(scene.clouds) - kept["state"]) / _STATE
+        return np.maximum(error, change.max(axis=1))
+
+    def place(
+        self, scene: CloudScene, index: int, side: int
+    ) -> tuple[Tile, NDArray[np.float32]] | None:
+        """Room for a picture of a cloud, and the matrix it is taken with; None: no room."""
+        tile = self._take(side)
+        if tile is None:
+            return None
+        kept = self.kept
+        self._give_old(index)
+        if kept["tile"][index, 2]:
+            kept["old_tile"][index] = kept["tile"][index]
+            kept["old_quad"][index] = kept["quad"][index]
+            kept["share"][index] = 0.0
+        kept["tile"][index] = tile
+        center = scene.center[index]
+        way = center / scene.away[index]
+        right, up = picture_axes(way)
+        corners = box_corners(scene, index)
+        depth = corners @ way
+        x, y = corners @ right / depth, corners @ up / depth
+        mx, my = 0.5 * (x.max() + x.min()), 0.5 * (y.max() + y.min())
+        hx, hy = 0.5 * (x.max() - x.min()), 0.5 * (y.max() - y.min())
+        matrix = np.zeros((4, 4))
+        matrix[0, :3] = (right - mx * way) / hx
+        matrix[1, :3] = (up - my * way) / hy
+        matrix[3, :3] = way
+        far = scene.away[index]
+        kept["quad"][index] = (far * (mx * right + my * up), far * hx * right, far * hy * up)
+        kept["way"][index] = way
+        kept["stamp"][index] = self._stamp
+        kept["state"][index] = _state(scene.clouds[index : index + 1])[0]
+        return tile, matrix.astype(np.float32)
+
+    def quads(
+        self, scene: CloudScene, which: NDArray[np.intp], haze: NDArray[np.float32]
+    ) -> NDArray[np.float32]:
+        """(m, 8, 4) as shaders/cloud_quad.vert reads them; haze (m, 4)."""
+        kept = self.kept[which]
+        rows = np.zeros((len(which), 8, 4), np.float32)
+        center = scene.center[which]
+        rows[:, :3, :3] = kept["quad"]
+        rows[:, 0, :3] += center
+        rows[:, 0, 3] = scene.clouds["opacity"][which]
+        rows[:, 1, 3] = kept["share"]
+        rows[:, 3] = self._frames(kept["tile"])[:, (0, 1, 2, 2)]
+        rows[:, 4] = haze
+        rows[:, 5:, :3] = kept["old_quad"]
+        rows[:, 5, :3] += center
+        rows[:, 5:, 3] = self._frames(kept["old_tile"])
+        return rows
+
+    def _frames(self, tiles: NDArray) -> NDArray[np.float64]:
+        """u, v and size of tiles, (m, 3); as Atlas.frame."""
+        scale = 1.0 / self.atlas.height
+        u, v, side = tiles[:, 0] + 0.25, tiles[:, 1] + 0.5, tiles[:, 2] - 1.0
+        return np.stack([u, v, side], axis=1) * scale
+
+    def _take(self, side: int) -> Tile | None:
+        """A tile, if need be of a cloud long out of the picture, or a smaller one."""
+        while side >= Atlas.SMALLEST:
+            tile = self.atlas.space.take(side)
+            if tile is not None:
+                return tile
+            idle = np.flatnonzero((self.kept["tile"][:, 2] > 0) & (self.kept["seen"] < self._draws))
+            for index in idle[np.argsort(self.kept["seen"][idle], kind="stable")][:64]:
+                self._release_tiles(self.kept[index])
+                self.kept["tile"][index] = self.kept["old_tile"][index] = 0
+                self.kept["share"][index] = 1.0
+                tile = self.atlas.space.take(side)
+                if tile is not None:
+                    return tile
+            side //= 2
+        return None
+
+    def _give_old(self, index: int) -> None:
+        old = self.kept["old_tile"][index]
+        if old[2]:
+            self.atlas.space.give((int(old[0]), int(old[1]), int(old[2])))
+        self.kept["old_tile"][index] = 0
+        self.kept["share"][index] = 1.0
+
+    def _release_tiles(self, entry: NDArray) -> None:
+        for name in ("tile", "old_tile"):
+            x, y, side = (int(v) for v in entry[name])
+            if side:
+                self.atlas.space.give((x, y, side))
+
+    def release(self) -> None:
+        """Give everything back; twice does no harm."""
+        self.atlas.release()
+
+
+def box_corners(scene: CloudScene, index: int) -> NDArray[np.float64]:
+    """(8, 3) of the box round a cloud's billboards, from the camera."""
+    cloud = scene.clouds[index]
+    signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], np.float64)
+    local = scene.middle[index] * float(cloud["scale"]) + signs * scene.half[index]
+    c, s = np.cos(float(cloud["heading"])), np.sin(float(cloud["heading"]))
+    x, y, z = local[:, 0] * float(cloud["mirror"]), local[:, 1], local[:, 2]
+    corners = np.stack([x * c + z * s, y, z * c - x * s], axis=1)
+    return corners + scene.center[index]
+
+
+def _state(clouds: NDArray) -> NDArray[np.float64]:
+    lean = clouds["shear"]
+    columns = (clouds["growth"], clouds["mode"], clouds["darkness"], lean[:, 0], lean[:, 1])
+    return np.stack(columns, axis=1)
+
+
+def _side(pixels: float, largest: int) -> int:
+    """Height of the tile for a picture of so many pixels; a little too small is good enough."""
+    side = Atlas.SMALLEST
+    while side < largest and side < 0.85 * pixels:
+        side *= 2
+    return side

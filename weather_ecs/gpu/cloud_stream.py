@@ -1,0 +1,95 @@
+"""The stream of billboards to draw: each cloud's, sorted from the farthest to the nearest.
+
+A cloud is sorted when it is drawn with billboards and the camera has moved against it, by one call
+of NumPy; far clouds are drawn as impostors and not sorted at all.
+"""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.gpu.cloud_scene import CloudScene
+from weather_ecs.gpu.cloud_store import CloudStore, StoredShape
+
+WIDTH = 1024  # items in a row of the texture
+_MOVED = 0.004  # of the distance to a billboard: less leaves the order as it was
+
+
+class CloudStream:
+    """(billboard, row of the cloud) pairs in a texture, filled once a draw."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._ctx = ctx
+        self._height = 4
+        self.texture = self._make()
+        self._sorted: dict[int, tuple[StoredShape, NDArray, NDArray[np.uint32]]] = {}
+        self._used: set[int] = set()
+
+    def _make(self) -> moderngl.Texture:
+        texture = self._ctx.texture((WIDTH, self._height), 2, dtype="u4")
+        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        return texture
+
+    def fill(self, scene: CloudScene, store: CloudStore, which: NDArray[np.intp]) -> NDArray:
+        """Put in the clouds `which`, the k-th with row k; (m + 1,) where each begins."""
+        orders = [self._order(scene, store, int(index)) for index in which]
+        begins = np.zeros(len(which) + 1, np.intp)
+        if not len(which):
+            return begins
+        counts = [len(order) for order in orders]
+        np.cumsum(counts, out=begins[1:])
+        total = int(begins[-1])
+        rows = -(-total // WIDTH)
+        if not rows:
+            return begins
+        if rows > self._height:
+            while self._height < rows:
+                self._height *= 2
+            self.texture.release()
+            self.texture = self._make()
+        pairs = np.zeros((rows * WIDTH, 2), np.uint32)
+        pairs[:total, 0] = np.concatenate(orders)
+        pairs[:total, 1] = np.repeat(np.arange(len(which), dtype=np.uint32), counts)
+        self.texture.write(pairs.tobytes(), viewport=(0, 0, WIDTH, rows))
+        return begins
+
+    def _order(self, scene: CloudScene, store: CloudStore, index: int) -> NDArray[np.uint32]:
+        cloud = scene.clouds[index]
+        shape = store.shapes[int(cloud["shape"])]
+        key = int(cloud["key"])
+        eye = eye_in_shape(scene.center[index], cloud)
+        self._used.add(key)
+        known = self._sorted.get(key)
+        if known is not None and known[0] is shape:
+            moved = eye - known[1]
+            near = max(float(np.sqrt(eye @ eye)) - shape.reach, 0.05 * shape.reach)
+            if float(moved @ moved) < (_MOVED * near) ** 2:
+                return known[2]
+        away = shape.position - eye.astype(np.float32)
+        order = np.argsort(-np.einsum("ij,ij->i", away, away), kind="stable")
+        found = (order + shape.first).astype(np.uint32)
+        self._sorted[key] = (shape, eye, found)
+        return found
+
+    def forget_unused(self) -> None:
+        """Drop the orders of clouds that were not drawn since the last call."""
+        if len(self._sorted) > len(self._used):
+            self._sorted = {k: v for k, v in self._sorted.items() if k in self._used}
+        self._used.clear()
+
+    def release(self) -> None:
+        self._sorted.clear()
+        self.texture.release()
+
+
+def eye_in_shape(center: NDArray, cloud: NDArray) -> NDArray[np.float64]:
+    """The camera in a shape's own axes, m; the inverse of physics/cloud_light.place."""
+    x, y, z = (-float(c) for c in center)
+    x -= float(cloud["shear"][0]) * y
+    z -= float(cloud["shear"][1]) * y
+    c, s = np.cos(float(cloud["heading"])), np.sin(float(cloud["heading"]))
+    scale = max(float(cloud["scale"]), 1e-9)
+    own = np.array([(x * c - z * s) * float(cloud["mirror"]), y, z * c + x * s])
+    return own / scale

@@ -1,0 +1,83 @@
+// Billboards of clouds, four vertices each, of a stream of (billboard, cloud) that is sorted.
+#include "cloud_row.glsl"
+#include "cloud_light.glsl"
+
+uniform usampler2D cloud_stream;
+uniform int cloud_first;  // of this draw in the stream
+uniform mat4 cloud_matrix;  // from camera-relative places to the picture
+uniform float cloud_hazed;  // 1; 0 while an impostor is made
+
+out vec3 vs_uv;
+out vec3 vs_lit;
+out vec3 vs_shade;
+out vec3 vs_rim;
+flat out vec2 vs_relief;  // the sun's direction in the image's axes
+out vec4 vs_fade;  // opacity, height over the base, depth over which it fades, facing
+flat out vec4 vs_haze;
+
+void main()
+{
+    int item = cloud_first + gl_InstanceID;
+    uvec2 pair = texelFetch(cloud_stream, ivec2(item & 1023, item >> 10), 0).rg;
+    Cloud cloud = fetch_cloud(int(pair.y));
+    Billboard b = fetch_billboard(int(pair.x));
+
+    float there = presence(cloud, b.order);
+    vec3 middle = place_in_cloud(cloud, b.position);
+    vec3 at = cloud.center + middle;
+    float away = length(at);
+    vec2 size = b.size * cloud.scale * (0.55 + 0.45 * there);
+
+    // It stands for an ellipsoid as deep as it is wide: the image lies level under a viewer below,
+    // and turns up towards one at its own height, without a jump anywhere.
+    vec3 way = at / max(away, 1e-3);
+    float level = length(way.xz);
+    vec2 ahead = level > 1e-4 ? way.xz / level : vec2(1.0, 0.0);
+    vec3 right = vec3(-ahead.y, 0.0, ahead.x);
+    vec3 up = cross(right, way);
+    float height = length(vec2(size.y * level, size.x * way.y));
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    vec2 turn = vec2(cos(b.turn), sin(b.turn));
+    // Image axes to level world axes, as (x, z) columns, then to the picture's.
+    vec2 image_x = vec2(turn.x * cloud.mirror, turn.y);
+    vec2 image_y = vec2(-turn.y * cloud.mirror, turn.x);
+    image_x = vec2(image_x.x * cloud.turn.x + image_x.y * cloud.turn.y,
+                   image_x.y * cloud.turn.x - image_x.x * cloud.turn.y);
+    image_y = vec2(image_y.x * cloud.turn.x + image_y.y * cloud.turn.y,
+                   image_y.y * cloud.turn.x - image_y.x * cloud.turn.y);
+    vec2 ex = vec2(dot(image_x, right.xz), -dot(image_x, ahead));
+    vec2 ey = vec2(dot(image_y, right.xz), -dot(image_y, ahead));
+    vec2 flat_offset = ex * corner.x + ey * corner.y;
+    vec3 offset = 0.5 * (right * (flat_offset.x * size.x) + up * (flat_offset.y * height));
+    vec3 v = middle + offset;
+    vec3 p = at + offset;
+
+    bool plain = cloud_look.w > 0.5;
+    Light light;
+    if (plain) {
+        vec3 seed_size;
+        light = plain_light(v, fetch_seed(b.seed, cloud.fresh, seed_size).w);
+    } else {
+        vec4 seed = fetch_light(int(pair.x), cloud.fresh, to_shape(cloud, offset));
+        vec3 s = place_in_cloud(cloud, seed.xyz);
+        light = full_light(cloud, v, s, p / max(length(p), 1e-3), seed.w);
+    }
+    vs_lit = encode(light.lit);
+    vs_shade = encode(light.shade);
+    vs_rim = light.rim;
+    vec2 sun = vec2(dot(cloud_sun.xyz, right), dot(cloud_sun.xyz, up));
+    vs_relief = plain ? vec2(0.0) : vec2(dot(sun, ex), dot(sun, ey));
+    vs_fade.w = light.facing;
+
+    // Nothing is left of a billboard that the camera comes to.
+    float near = smoothstep(0.30, 0.95, away / max(size.x, 1e-3));
+    vs_fade.x = b.opacity * there * near * mix(cloud.opacity, 1.0, 1.0 - cloud_hazed);
+    vs_fade.y = (v.y - cloud.base) / (0.16 * cloud.half_size.y) + 0.5;
+    vs_fade.z = 0.25 * size.x;
+    vs_haze = vec4(cloud.haze, cloud.fog * cloud_hazed);
+    vs_uv = vec3(corner * 0.5 + 0.5, b.image);
+    gl_Position = cloud_matrix * vec4(p, 1.0);
+    // No far plane cuts clouds off.
+    gl_Position.z = min(gl_Position.z, 0.999999 * gl_Position.w);
+    if (vs_fade.x < 0.002) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+}

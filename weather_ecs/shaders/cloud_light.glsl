@@ -1,0 +1,63 @@
+// Light of a vertex of a cloud's billboard; the same symbols as physics/cloud_light.py.
+// v: vertex from the cloud's centre; s: the centre of its seed from there; way: unit, from the
+// camera to the vertex; a: what the seed's ray has lost, 0 to 1. All colours linear RGB.
+#include <block:CloudView>
+#include "encode.glsl"
+
+struct Light {
+    vec3 lit;  // of what faces the sun
+    vec3 shade;  // of what is turned from it
+    vec3 rim;  // that shines through where the cloud is thin
+    float facing;  // 0 to 1: which of the two the vertex itself shows
+};
+
+// The dissertation's own: diffuse = clamp(dot(sun, unit(v)) * sun colour - absorbed, 0, 1).
+Light plain_light(vec3 v, float a)
+{
+    vec3 n = v / max(length(v), 1e-6);
+    vec3 diffuse = clamp(dot(cloud_sun.xyz, n) * cloud_sun_color.rgb - a, 0.0, 1.0);
+    vec3 color = diffuse + cloud_ambient.rgb;
+    return Light(color, color, vec3(0.0), 0.5);
+}
+
+Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
+{
+    vec3 q = v / cloud.half_size;
+    // The way out of the cloud: of the whole as an ellipsoid, and of the seed.
+    vec3 whole = q / cloud.half_size;
+    vec3 own = v - s;
+    vec3 n = 0.65 * whole / max(length(whole), 1e-9) + 0.35 * own / max(length(own), 1e-3);
+    n /= max(length(n), 1e-6);
+    float rise = clamp((v.y - cloud.base) / (cloud.half_size.y * 2.0), 0.0, 1.0);
+    float towards = dot(cloud_sun.xyz, n);
+    float through = exp(-0.75 * a);
+
+    // Sky from above, ground and lit air from below; less of both deep inside.
+    float up = 0.5 + 0.5 * n.y;
+    vec3 ambient = mix(cloud_below.rgb, cloud_above.rgb, up * up * (3.0 - 2.0 * up));
+    ambient *= cloud_look.z * (0.62 + 0.38 * rise);
+    float deep = cloud_look.y * (0.30 + 0.70 * cloud.darkness);
+    float under = 1.0 - deep * (1.0 - smoothstep(0.0, 0.55, rise)) * 0.62;
+    float gloom = 1.0 - 0.45 * cloud.darkness * cloud_look.y;
+
+    vec3 sun = cloud_sun_color.rgb * through;
+    float ahead = dot(way, cloud_sun.xyz);
+    // Forward scattering of droplets, broad and narrow (two lobes of Henyey and Greenstein's kind).
+    float forward = 0.16 * pow(max(0.5 + 0.5 * ahead, 0.0), 6.0) + 0.7 * pow(max(ahead, 0.0), 24.0);
+
+    Light light;
+    light.lit = (sun * (0.92 + 0.08 * towards) + ambient) * under * gloom;
+    light.shade = (sun * (0.22 + 0.06 * towards) + ambient * 0.95) * under * gloom;
+    light.facing = clamp(0.62 + 0.50 * towards - 0.28 * a, 0.0, 1.0);
+
+    // Lining: where the cloud ends beside the line of sight, so that little lies behind.
+    vec3 aside = q - way * dot(q, way);
+    float edge = smoothstep(0.30, 0.90, length(aside));
+    light.rim = cloud_look.x * cloud_sun_color.rgb * forward * (0.15 + 0.85 * edge) * (1.0 - 0.5 * a);
+
+    float inside = max(1.0 - 0.55 * dot(q, q), 0.12);
+    vec3 flash = cloud.flash * inside * vec3(0.86, 0.90, 1.0);
+    light.lit += flash;
+    light.shade += flash;
+    return light;
+}

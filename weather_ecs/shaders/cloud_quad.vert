@@ -1,0 +1,40 @@
+// Impostors: pictures of whole clouds, each on the plane it was taken on.
+uniform sampler2D cloud_quads;  // eight texels each
+uniform int cloud_first;
+uniform mat4 cloud_matrix;
+
+out vec2 vs_uv;
+out vec2 vs_before;  // place in the older picture
+flat out vec4 vs_frame;  // the older picture's frame
+flat out vec4 vs_haze;
+flat out vec2 vs_share;  // opacity, and share of the newer picture
+
+void main()
+{
+    int row = cloud_first + gl_InstanceID;
+    vec4 a = texelFetch(cloud_quads, ivec2(0, row), 0);  // centre, opacity
+    vec4 b = texelFetch(cloud_quads, ivec2(1, row), 0);  // half of the width, share of the newer
+    vec4 c = texelFetch(cloud_quads, ivec2(2, row), 0);  // half of the height
+    vec4 uv = texelFetch(cloud_quads, ivec2(3, row), 0);  // corner and size
+    vs_haze = texelFetch(cloud_quads, ivec2(4, row), 0);
+    vs_share = vec2(a.w, b.w);
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    vec3 p = a.xyz + b.xyz * corner.x + c.xyz * corner.y;
+    vs_uv = uv.xy + uv.zw * (corner * 0.5 + 0.5);
+    vs_before = vec2(0.0);
+    vs_frame = vec4(0.0);
+    if (b.w < 1.0) {
+        // Where the line of sight to this corner meets the older picture's plane.
+        vec4 d = texelFetch(cloud_quads, ivec2(5, row), 0);
+        vec4 e = texelFetch(cloud_quads, ivec2(6, row), 0);
+        vec4 f = texelFetch(cloud_quads, ivec2(7, row), 0);
+        vec3 n = cross(e.xyz, f.xyz);
+        float depth = dot(p, n) / dot(d.xyz, n);
+        vec3 on = p / depth - d.xyz;
+        vec2 at = vec2(dot(on, e.xyz) / dot(e.xyz, e.xyz), dot(on, f.xyz) / dot(f.xyz, f.xyz));
+        vs_before = at * 0.5 + 0.5;
+        vs_frame = vec4(d.w, e.w, f.w, f.w);
+    }
+    gl_Position = cloud_matrix * vec4(p, 1.0);
+    gl_Position.z = min(gl_Position.z, 0.999999 * gl_Position.w);
+}
