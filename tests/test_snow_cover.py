@@ -5,13 +5,15 @@ from __future__ import annotations
 import json
 
 import esper
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.worlds import fresh_world
 from weather_ecs import Weather
-from weather_ecs.components import Air, RainArea
+from weather_ecs.components import Air, Occluder, RainArea
+from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.ground_law import SnowLaw
 from weather_ecs.physics.snow_cover import (
     DEGREE_DAY,
@@ -151,3 +153,49 @@ def test_a_state_comes_back():
         state = json.loads(json.dumps(weather._state.snow_ground.state()))
     assert state["levels"] and state["melt"] > 0.0
     assert json.loads(json.dumps(WetGround.from_state(state, SnowLaw).state())) == state
+
+
+# On things that move
+
+
+def cube() -> tuple[np.ndarray, np.ndarray]:
+    corners = np.array([(x, y, z) for x in (-1, 1) for y in (0, 2) for z in (-1, 1)], np.float32)
+    faces = "0 1 3 0 3 2 4 6 7 4 7 5 0 4 5 0 5 1 2 3 7 2 7 6 0 2 6 0 6 4 1 5 7 1 7 3"
+    return corners, np.array(faces.split(), np.uint32)
+
+
+def at(x: float, y: float, z: float, lean: float = 0.0) -> np.ndarray:
+    c, s = np.cos(lean), np.sin(lean)
+    return np.array([[c, -s, 0, x], [s, c, 0, y], [0, 0, 1, z], [0, 0, 0, 1.0]])
+
+
+@pytest.mark.usefixtures("world")
+def test_a_cart_takes_its_snow_along_drops_it_when_it_leans_and_gets_none_under_a_roof():
+    esper.create_entity(Air(COLD, 0.9))
+    esper.create_entity(RainArea((0, 0), (60, 60), 10.0))
+    cart = Occluder(*cube(), at(0, 0, 0), dynamic=True)
+    covered = Occluder(*cube(), at(20, 0, 0), dynamic=True)
+    vertices, faces = cube()
+    roof = Occluder(vertices * (4, 0.1, 4), faces, at(20, 5, 0))
+    for thing in (cart, covered, roof):
+        esper.create_entity(thing)
+    with Weather() as weather:
+        esper.process(0.0)
+        assert weather.snow_on(cart) == 0.0
+        for k in range(120):
+            cart.transform = at(0.05 * k, 0, 0)
+            esper.process(0.5)
+            weather.snow_on(cart), weather.snow_on(covered)
+        lies = weather.snow_on(cart)
+        assert lies == pytest.approx(FALL * 60.0 / DENSITY, rel=0.02)
+        assert weather.snow_on(covered) == 0.0
+        cart.transform = at(200.0, 0, 0)  # out of the snow
+        esper.process(0.5)
+        assert weather.snow_on(cart) == pytest.approx(lies, rel=1e-6)
+        cart.transform = at(200.0, 0, 0, 1.4)
+        for _ in range(10):
+            esper.process(0.5)
+            weather.snow_on(cart)
+        assert weather.snow_on(cart) < 1e-3 * lies
+        with pytest.raises(InvalidValueError, match="thing"):
+            weather.snow_on("cart")  # type: ignore[arg-type]

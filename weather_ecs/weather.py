@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import esper
 
 from weather_ecs import snapshot
-from weather_ecs.components import Observer, RainGauge, RippleSurface
+from weather_ecs.components import Observer, Occluder, RainGauge, RippleSurface
 from weather_ecs.components._base import FAR, integer, vector
 from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, WeatherError
 from weather_ecs.frame import FrameData
@@ -26,6 +26,7 @@ from weather_ecs.systems.gauge import GaugeBoard
 from weather_ecs.systems.queries import in_world, living
 from weather_ecs.systems.rain_view import RainView
 from weather_ecs.systems.shelter import ShelterIndex
+from weather_ecs.systems.thing_snow import ThingSnow
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -82,6 +83,7 @@ class Weather:
         self._observer: tuple[float, float, float] | None = None  # m, of the last draw
         self._keys = ObserverKeys()
         self._shelter, self._slope = ShelterIndex(), SlopeFollower()
+        self._things = ThingSnow()
         self._gauges = GaugeBoard()
         self._field: SampleField | None = None
         self._field_frame: FrameData | None = None
@@ -219,6 +221,19 @@ class Weather:
             raise ContextError("this weather was made with neither window nor context")
         with _current(self._window):
             return self._ready_renderer().wetness(self._keys.key(observer))
+
+    def snow_on(self, thing: Occluder) -> float:
+        """Depth in m of the snow on something that moves, since it was first asked about.
+
+        Ask every frame: what has fallen since the last question is added, while the thing stands
+        upright. What stands still is in the map that `wetness.glsl` reads.
+
+        Raises InvalidValueError for anything but an Occluder.
+        """
+        if not isinstance(thing, Occluder):
+            raise InvalidValueError("thing", thing, "an Occluder component")
+        field, frame = self._sample_field(), self._frame()
+        return self._things.depth(thing, field, frame.air.wet_bulb, frame.time)
 
     def _draw(self, camera: Camera, observer: Observer | None, started: float) -> None:
         frame = self._frame()
