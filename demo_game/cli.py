@@ -78,6 +78,10 @@ def _one_of(names: Sequence[str]) -> Callable[[str], str]:
     return parse
 
 
+def _preset(text: str) -> str:
+    return PRESETS[text].name if text in PRESETS else _one_of(tuple(PRESETS))(text)
+
+
 def build_parser() -> argparse.ArgumentParser:
     """The parser of `python -m demo_game`."""
     parser = _Parser(
@@ -124,11 +128,11 @@ def build_parser() -> argparse.ArgumentParser:
     )
     add(
         "--preset",
-        type=_one_of(tuple(PRESETS)),
+        type=_preset,
         metavar="NAME",
         default="heavy",
-        help=f"{', '.join(PRESETS)} (default heavy); on a tour only rain and wind follow it, so "
-        "that the difference of two runs is the rain",
+        help=f"{', '.join(PRESETS)} (default heavy); on a tour only what falls and the wind follow "
+        "a rain, so that the difference of two runs is the rain; fog, sleet, snow: the air too",
     )
     add(
         "--walk-speed",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from demo_game.player import Intent
+from weather_ecs.presets import PRESETS
 
 DEAD_ZONE = 0.18  # of a stick's travel
 STICK_LOOK = 2.6  # rad/s of turn at a stick's full travel
@@ -22,21 +23,10 @@ WALK_KEYS: dict[str, tuple[float, float]] = {
 RUN_KEYS = frozenset(("LSHIFT", "RSHIFT"))
 JUMP_KEY = "SPACE"
 
-PRESET_KEYS = {
-    "_1": "clear",
-    "_2": "drizzle",
-    "_3": "light",
-    "_4": "moderate",
-    "_5": "heavy",
-    "_6": "cloudburst",
-    "NUM_1": "clear",
-    "NUM_2": "drizzle",
-    "NUM_3": "light",
-    "NUM_4": "moderate",
-    "NUM_5": "heavy",
-    "NUM_6": "cloudburst",
-}
-
+# By the presets' order: the top row, and the number pad for the first ten.
+_KEYS = ("_1", "_2", "_3", "_4", "_5", "_6", "_7", "_8", "_9", "_0", "MINUS")
+PRESET_KEYS = dict(zip(_KEYS, PRESETS, strict=True))
+PRESET_KEYS |= {f"NUM{key}": name for key, name in PRESET_KEYS.items() if key != "MINUS"}
 
 # What pyglet calls keys while Shift is held down, as it is by somebody who runs.
 SHIFTED = {
@@ -46,6 +36,11 @@ SHIFTED = {
     "DOLLAR": "_4",
     "PERCENT": "_5",
     "ASCIICIRCUM": "_6",
+    "AMPERSAND": "_7",
+    "ASTERISK": "_8",
+    "PARENLEFT": "_9",
+    "PARENRIGHT": "_0",
+    "UNDERSCORE": "MINUS",
     "BRACELEFT": "BRACKETLEFT",
     "BRACERIGHT": "BRACKETRIGHT",
     "LESS": "COMMA",

@@ -54,7 +54,10 @@ def test_sticks_have_a_dead_zone_and_add_to_the_keys() -> None:
 
 
 def test_every_preset_has_a_number_key() -> None:
-    assert list(PRESETS) == [PRESET_KEYS[f"_{n}"] for n in range(1, 7)]
+    keys = [*(f"_{n}" for n in (1, 2, 3, 4, 5, 6, 7, 8, 9, 0)), "MINUS"]
+    assert list(PRESETS) == [PRESET_KEYS[key] for key in keys]
+    assert [PRESET_KEYS[f"NUM_{n}"] for n in (1, 9, 0)] == ["clear", "heavy_snow", "blizzard"]
+    assert set(PRESET_KEYS.values()) == set(PRESETS)
 
 
 def menu_and_log() -> tuple[Menu, Settings, list[str]]:

@@ -18,6 +18,8 @@ LEFT = (
     ("M", "map"),
     ("F11", "full screen"),
     ("F12", "save a picture"),
+    ("", ""),
+    ("gamepad", "sticks walk and look, A jumps"),
 )
 RIGHT = (
     ("1", "clear"),
@@ -25,12 +27,13 @@ RIGHT = (
     ("3", "light rain"),
     ("4", "moderate rain"),
     ("5", "heavy rain"),
-    ("6", "cloudburst"),
+    ("6  7", "cloudburst, sleet"),
+    ("8  9", "light snow, heavy snow"),
+    ("0  -", "blizzard, fog"),
     ("", ""),
     ("[  ]", "less wind, more wind"),
     (",  .", "turn the wind"),
     ("T", "time of day"),
-    ("gamepad", "sticks walk and look, A jumps"),
 )
 PURPOSE = (
     "Carry the letter from the table in the cabin to the mailbox at the end of the path, and keep",
