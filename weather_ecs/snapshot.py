@@ -22,6 +22,7 @@ from weather_ecs.components import SNAPSHOT_COMPONENTS
 from weather_ecs.components._base import Component, set_unchecked
 from weather_ecs.errors import InvalidValueError, SnapshotError
 from weather_ecs.physics.ground_law import SnowLaw
+from weather_ecs.systems.cloud_field import CloudField
 from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.wet_ground import WetGround
@@ -37,7 +38,7 @@ _NAMES = {
     name: tuple(sorted(field.name for field in fields(kind)))  # type: ignore[arg-type]
     for name, kind in SNAPSHOT_COMPONENTS.items()
 }
-_PARTS = {"clock", "entities", "fronts", "next_uid", "rng", "seed", "snow", "wetness"}
+_PARTS = {"clock", "clouds", "entities", "fronts", "next_uid", "rng", "seed", "snow", "wetness"}
 
 
 class Entity(NamedTuple):
@@ -53,6 +54,7 @@ class Loaded(NamedTuple):
     seed: int
     rng: np.random.Generator
     clock: Clock
+    clouds: CloudField
     fronts: RainFronts
     next_uid: int
     entities: list[Entity]
@@ -113,6 +115,7 @@ def capture(state: WeatherState) -> dict[str, Any]:
                 }
     return {
         "clock": state.clock.state(),
+        "clouds": state.clouds.state(),
         "entities": [[uid, entities[uid]] for uid in sorted(entities)],
         "fronts": state.fronts.state(),
         "next_uid": state.uids.next,
@@ -148,10 +151,12 @@ def _load(document: dict[str, Any]) -> Loaded:
             raise SnapshotError(f"the snapshot's entity {uid} has no components")
         built = [_component(name, values) for name, values in entry[1].items()]
         entities.append(Entity(uid, {type(component): component for component in built}))
+    seed = _integer("seed", document["seed"], 2**63 - 1)
     return Loaded(
-        seed=_integer("seed", document["seed"], 2**63 - 1),
+        seed=seed,
         rng=_generator(document["rng"]),
         clock=Clock.from_state(document["clock"]),
+        clouds=CloudField.from_state(document["clouds"], seed),
         fronts=RainFronts.from_state(document["fronts"]),
         next_uid=next_uid,
         entities=entities,
@@ -194,6 +199,7 @@ def apply(state: WeatherState, loaded: Loaded) -> None:
     state.seed = loaded.seed
     state.rng = loaded.rng
     state.clock = loaded.clock
+    state.clouds = loaded.clouds
     state.fronts = loaded.fronts
     state.wet_ground = loaded.wet_ground
     state.snow_ground = loaded.snow_ground

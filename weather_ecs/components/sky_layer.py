@@ -19,8 +19,9 @@ class SkyLayer(Agreeing):
     At the start the rectangle is filled from the sky whose state is nearest. A cloud that leaves it
     is gone, and another comes in on the upwind side, drawn from the two skies round the state of
     its `Climate`: the one on the same entity, or else the oldest entity's. Without any, the state
-    is 0. Layers are independent of each other; several may lie above one another. A rectangle in
-    which a cloud of its skies does not fit is refused when the clouds are made.
+    is 0. Layers are independent of each other; several may lie above one another. In calm air, and
+    wherever there is a `turnover`, clouds also form, dissolve and turn into others where they are.
+    A rectangle smaller than a cloud holds it all the same: only its middle has to be inside.
     """
 
     base: float = 1000.0  # m, world height of the clouds' bases, -1000 to 1e5
@@ -32,6 +33,10 @@ class SkyLayer(Agreeing):
     drift: float = 1.0  # 0 to 1: share of the weather's wind that is added to it
     shear: tuple[float, float] = (0.0, 0.0)  # (x, z), m of lean per m of height, each within 10
 
+    turnover: float = 0.0  # s, 0 to 1e6, in which the clouds are others where they stand; 0: never
+
+    # A count of its own: a layer may follow an observer, which changes neither skies nor models.
+    _revision: ClassVar[list[int]] = [0]
     checks: ClassVar[dict[str, Check]] = {
         "base": number(-1.0e3, 1.0e5),
         "center": vector(2, -FAR, FAR),
@@ -41,6 +46,7 @@ class SkyLayer(Agreeing):
         "velocity": vector(2, -FASTEST, FASTEST),
         "drift": number(0.0, 1.0),
         "shear": vector(2, -10.0, 10.0),
+        "turnover": number(0.0, 1.0e6),
     }
 
     def agree(self) -> None:

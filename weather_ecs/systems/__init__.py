@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from weather_ecs.systems.climate import ClimateSystem
+from weather_ecs.systems.cloud_light import CloudLightSystem
+from weather_ecs.systems.cloud_rain import CloudRainSystem
+from weather_ecs.systems.clouds import CloudSystem
 from weather_ecs.systems.extract import ExtractSystem
 from weather_ecs.systems.processor import System, WeatherProcessor
 from weather_ecs.systems.rain_area import RainAreaSystem
@@ -23,8 +27,12 @@ class Row(NamedTuple):
 
 SCHEDULE: tuple[Row, ...] = (
     Row(WindSystem, 100, "step", "first: whatever drifts needs the wind of this step"),
+    Row(ClimateSystem, 110, "step", "before the clouds, which come in by the state of the skies"),
+    Row(CloudSystem, 150, "step", "after wind and climate: they say what comes in, and where"),
     Row(RainAreaSystem, 200, "step", "after the wind, which carries the areas"),
+    Row(CloudRainSystem, 250, "step", "after the areas have moved: puts its own under clouds"),
     Row(WetnessSystem, 300, "step", "after the areas have moved: it rains where they are now"),
+    Row(CloudLightSystem, 800, "frame", "before the frame is published, which shows its light"),
     Row(ExtractSystem, 900, "frame", "last: publishes what all the others have made"),
 )
 
@@ -37,6 +45,10 @@ def scheduled(phase: str) -> list[System]:
 
 __all__ = [
     "SCHEDULE",
+    "ClimateSystem",
+    "CloudLightSystem",
+    "CloudRainSystem",
+    "CloudSystem",
     "ExtractSystem",
     "RainAreaSystem",
     "Row",

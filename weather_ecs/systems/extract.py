@@ -39,6 +39,7 @@ from weather_ecs.frame import (
     empty,
 )
 from weather_ecs.systems.air import air_data, fog_data
+from weather_ecs.systems.cloud_list import CloudList
 from weather_ecs.systems.gauge import GaugeList
 from weather_ecs.systems.occluders import OccluderList
 from weather_ecs.systems.queries import alive
@@ -92,6 +93,7 @@ class ExtractSystem:
         self._ripples = RippleList()
         self._heightmap, self._layers = HeightmapLook(), ALL_LAYERS
         self._gauges = GaugeList()
+        self._clouds = CloudList()
         self._time = -1.0
 
     @property
@@ -130,6 +132,10 @@ class ExtractSystem:
             self._frame = frame = self._at_time(state, occluders, gauges)
         elif gauges is not frame.gauges:
             self._frame = frame = replace(frame, gauges=gauges)
+        if state.drawn:
+            clouds, shapes = self._clouds.collect(state, frame.sky, frame.wind, frame.profile)
+            if clouds is not frame.clouds or shapes is not frame.cloud_shapes:
+                self._frame = frame = replace(frame, clouds=clouds, cloud_shapes=shapes)
         return frame
 
     def _at_time(

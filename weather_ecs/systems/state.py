@@ -7,6 +7,9 @@ import numpy as np
 from weather_ecs.clock import STEP, Clock
 from weather_ecs.frame import WindProfile
 from weather_ecs.physics.ground_law import SnowLaw
+from weather_ecs.systems.cloud_field import CloudField
+from weather_ecs.systems.cloud_models import ModelBook
+from weather_ecs.systems.cloud_shapes import ShapeLibrary
 from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.uids import Uids
 from weather_ecs.systems.wet_ground import WetGround
@@ -17,7 +20,11 @@ class WeatherState:
 
     __slots__ = (
         "clock",
+        "cloud_shapes",
+        "clouds",
+        "drawn",
         "fronts",
+        "models",
         "profile",
         "rng",
         "seed",
@@ -33,12 +40,17 @@ class WeatherState:
         self.rng = np.random.Generator(np.random.PCG64(seed))  # the only source of chance
         self.clock = Clock()
         self.uids = Uids()
+        self.clouds = CloudField()
         self.fronts = RainFronts()
         self.wet_ground = WetGround()
         self.snow_ground = WetGround(SnowLaw())
         self.step = 0  # the fixed step that the systems are at
         self.wind = (0.0, 0.0, 0.0)  # m/s, world axes, at the reference height; of WindSystem
         self.profile = WindProfile()  # how that varies with height
+        # What follows from all that, or is the same for good.
+        self.models = ModelBook()
+        self.cloud_shapes = ShapeLibrary()
+        self.drawn = False  # somebody draws this weather, and needs what only pictures show
 
     @property
     def next_time(self) -> float:
