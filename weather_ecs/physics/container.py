@@ -31,11 +31,17 @@ __all__ = [
     "weight_shape",
 ]
 
-# Beyond this azimuth no half cylinder that follows the view within its margin can hold it.
-_WHOLE_FROM = math.radians(80.0)
+# Beyond an azimuth of about 80 degrees no half cylinder that follows the view within its margin can
+# hold it. Between these half-widths the drops are shared out to the rear half too, so that they are
+# there when it comes into view.
+_REAR_FROM, _REAR_FULL = math.radians(68.0), math.radians(82.0)
+_REAR_RATE = 3.0  # 1/s, how fast the rear's share changes
 _PLASTIC = 1.3247179572447460  # root of x^3 = x + 1
 # The share of the near container that lies below the observer's eye.
 _BELOW = 0.3
+_UNDER = 0.5  # m, that the container reaches below the lowest surface in front of the observer
+_DEEPEST = 30.0  # m, that it reaches below the eye at most
+_DEEPER = 4.0  # m/s, how fast it comes to reach deeper, or less deep
 # Far fit: how fast a fit may change, per second, so that turning the head does not shift the rain.
 _FIT_RATE = 0.35
 
@@ -68,7 +74,8 @@ class Container:
     reach: tuple[float, float]  # semi-axes, forward and lateral
     bottom: float
     height: float
-    whole: bool  # the omitted half is needed too
+    depth: float  # m, that it reaches below the eye, within the margin
+    rear: float  # share of the drops that the omitted half has, where it is needed too; 0 to 0.5
     near: bool
     visible: bool
     distance: float  # from the observer to the area, 0 inside
@@ -76,6 +83,11 @@ class Container:
     size_scale: float  # on top of Eq. 3, 1 near, more with distance
     anchor: tuple[float, float]  # the observer, or P, less the margin
     view_heading: float  # the heading that the view asked for last
+
+    @property
+    def whole(self) -> bool:
+        """Whether the omitted half is needed too."""
+        return self.rear > 0.0
 
 
 def births(n: int, rng: np.random.Generator) -> NDArray[np.float32]:
@@ -109,15 +121,16 @@ def place(
     settings: ContainerSettings,
     previous: Container | None = None,
     dt: float = 0.0,
+    floor: float | None = None,
 ) -> Container:
     """The container of `area` for an observer who looks along `view_heading`.
 
     `half_width` is the greatest azimuth in view to either side of the heading; `dt` the time in
     seconds since `previous`. A width of view of 180 degrees or more gets the whole cylinder.
+    `floor`: world height of the lowest surface in front of the observer, where it is known.
     """
     x, y, z = observer
     reach, margin = settings.reach, settings.margin
-    whole = half_width >= _WHOLE_FROM
     turned = _turned(view_heading, half_width, previous)
     inside, point, distance = _nearest(area, (x, z))
     target = (x, z) if inside else point
@@ -140,18 +153,26 @@ def place(
             )
     back = margin + 0.25
     center = (anchor[0] - back * math.cos(heading), anchor[1] + back * math.sin(heading))
-    bottom = y - _BELOW * settings.height
-    if previous is not None and abs(previous.bottom - bottom) <= margin:
-        bottom = previous.bottom
+    least = _BELOW * settings.height
+    depth = least if floor is None else min(max(y - floor + _UNDER, least), _DEEPEST)
+    bottom = y - depth
+    if previous is not None:
+        change = _DEEPER * dt
+        depth = min(max(depth, previous.depth - change), previous.depth + change)
+        bottom = y - depth
+        kept = previous.bottom - (depth - previous.depth)
+        if abs(kept - bottom) <= margin:
+            bottom = kept
     top = max(area.ceiling - bottom, 1.0)
-    height = min(settings.height + 0.8 * distance, top)
+    height = min(settings.height - least + depth + 0.8 * distance, top)
     return Container(
         center=center,
         heading=heading,
         reach=axes,
         bottom=bottom,
         height=height,
-        whole=whole,
+        depth=depth,
+        rear=_rear_share(half_width, previous, dt),
         near=inside,
         visible=visible,
         distance=distance,
@@ -160,6 +181,15 @@ def place(
         anchor=anchor,
         view_heading=turned,
     )
+
+
+def _rear_share(half_width: float, previous: Container | None, dt: float) -> float:
+    x = (half_width - _REAR_FROM) / (_REAR_FULL - _REAR_FROM)
+    wanted = 0.5 * min(max(x, 0.0), 1.0)
+    if previous is None:
+        return wanted
+    change = _REAR_RATE * dt
+    return min(max(wanted, previous.rear - change), previous.rear + change)
 
 
 def _turned(view_heading: float, half_width: float, previous: Container | None) -> float:

@@ -22,13 +22,15 @@ from weather_ecs.physics.container import (
     place,
 )
 from weather_ecs.physics.rain_step import axis_of, shape_of
+from weather_ecs.systems.drop_shares import importances
 from weather_ecs.systems.falls import Fall, falls, shown_distance, snow_shown_distance
+from weather_ecs.systems.scene_floor import SceneFloor
 
 # A drop count's last tenth fades in, so that a changing count never makes a drop appear at once.
 COUNT_FADE = 0.1
 _LONGEST_STEP = 0.1  # s; a longer pause moves no drop further: rain is alike a moment later
 _FASTEST = 60.0  # m/s; an observer faster than this has been put elsewhere
-_BALANCE_RATE = 2.0  # 1/s, how fast a container's share of the drops follows its importance
+_FLOOR_EVERY = 0.25  # s, between two looks at how low the scene lies
 
 
 class Settings(Protocol):
@@ -47,7 +49,7 @@ class Settings(Protocol):
 @dataclass(slots=True)
 class _Placed:
     container: Container
-    importance: float
+    importance: float  # share of the drops it would have alone; 0: no slot
 
 
 @dataclass(slots=True)
@@ -60,6 +62,8 @@ class _Observed:
     placed: dict[int, _Placed] = field(default_factory=dict)
     fresh: bool = True  # not viewed yet
     air_run: tuple[float, float, float] = (0.0, 0.0, 0.0)  # m, see ViewData
+    floor: float | None = None  # m, the lowest surface ahead
+    floor_time: float = -math.inf  # s, when it was looked for
 
 
 class RainView:
@@ -69,6 +73,7 @@ class RainView:
         self._seed = seed
         self._observed: dict[int, _Observed] = {}
         self._births: dict[tuple[int, int], np.ndarray] = {}
+        self._floor = SceneFloor()
 
     def forget(self, key: int) -> None:
         """Drop what is remembered of an observer."""
@@ -112,7 +117,13 @@ class RainView:
         look = frame.look
         size = ContainerSettings(look.reach, look.height, look.margin)
         first, seen.fresh = seen.fresh, False
-        placed: dict[int, _Placed] = {}
+        if first or frame.time - seen.floor_time >= _FLOOR_EVERY:
+            seen.floor_time = frame.time
+            seen.floor = self._floor.lowest(
+                frame.occluders, camera.position, camera.heading, look.reach
+            )
+        rows: dict[int, np.void] = {}
+        found: dict[int, Container] = {}
         for row in frame.areas[_in_view(frame.areas, camera)]:
             area_key = int(row["key"])
             before = seen.placed.get(area_key)
@@ -122,7 +133,8 @@ class RainView:
                 float(row["heading"]),
                 float(row["ceiling"]),
             )
-            container = place(
+            rows[area_key] = row
+            found[area_key] = place(
                 area,
                 camera.position,
                 camera.heading,
@@ -130,24 +142,18 @@ class RainView:
                 size,
                 before.container if before else None,
                 dt,
+                seen.floor,
             )
-            wanted = container.share if container.visible else 0.0
-            if not first:
-                # What comes into the picture gets its drops little by little, what leaves it too.
-                had = before.importance if before is not None else 0.0
-                change = _BALANCE_RATE * dt
-                wanted = min(max(wanted, had - change), had + change)
-            placed[area_key] = _Placed(container, wanted)
+        # What comes into the picture gets its drops little by little.
+        wanted = {k: c.share for k, c in found.items() if c.visible}
+        had = None if first else {k: p.importance for k, p in seen.placed.items() if p.importance}
+        shown = importances(had, wanted, settings.containers, dt)
+        placed = {k: _Placed(c, shown.get(k, 0.0)) for k, c in found.items()}
         seen.placed = placed
-        shown = sorted(
-            (k for k, p in placed.items() if p.container.visible and p.importance > 0.0),
-            key=lambda k: (-placed[k].importance, k),
-        )[: settings.containers]
-        total = max(sum(placed[k].importance for k in shown), 1.0)
-        rows = {int(row["key"]): row for row in frame.areas if int(row["key"]) in placed}
+        total = max(sum(shown.values()), 1.0)
         data: list[ContainerData] = []
-        for k in shown:
-            count = max(settings.drops * settings.budget * placed[k].importance / total, 1.0)
+        for k in sorted(shown, key=lambda k: (-shown[k], k)):
+            count = max(settings.drops * settings.budget * shown[k] / total, 1.0)
             for fall in falls(float(rows[k]["rain_rate"]), frame.air, frame.flakes):
                 part = max(count * fall.part, 1.0)
                 data.extend(self._data(k, rows[k], placed[k].container, fall, part, settings.drops))
@@ -164,14 +170,15 @@ class RainView:
     ) -> list[ContainerData]:
         forward, lateral = container.reach
         load = fall.density * container.height * math.pi * forward * lateral
-        load /= 2.0 * count * (1.0 - 0.5 * COUNT_FADE)
+        load /= 2.0 * (1.0 - 0.5 * COUNT_FADE)
         h = float(row["heading"])
         radii = row["radii"].tolist()
         axis = axis_of(container)
-        # A whole cylinder is the half and its twin, turned about.
-        halves = [(0, axis)]
+        # A whole cylinder is the half and its twin, turned about; they share the drops.
+        halves = [(0, axis, max(count * (1.0 - container.rear), 1.0))]
         if container.whole:
-            halves.append((1, (axis[0], axis[1], -axis[2], -axis[3])))
+            turned = (axis[0], axis[1], -axis[2], -axis[3])
+            halves.append((1, turned, max(count * container.rear, 1.0)))
         return [
             ContainerData(
                 key=4 * key + 2 * fall.kind + rear,
@@ -180,22 +187,25 @@ class RainView:
                 area_axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
                 area_shape=(*radii, min(float(row["soft_edge"]), radii[1]), float(row["ceiling"])),
                 law=fall.law,
-                load=load,
-                count=count,
+                load=load / part,
+                count=part,
                 size_scale=container.size_scale,
-                births=self._birth_records(capacity, 2 * fall.kind + rear),
+                births=self._birth_records(capacity, fall.kind, rear),
                 kind=fall.kind,
                 rate=fall.rate,
                 cover=fall.cover,
             )
-            for rear, half in halves
+            for rear, half, part in halves
         ]
 
-    def _birth_records(self, capacity: int, number: int) -> np.ndarray:
+    def _birth_records(self, capacity: int, kind: int, rear: int) -> np.ndarray:
+        number = 2 * kind + rear
         record = self._births.get((capacity, number))
         if record is None:
             self._births = {k: r for k, r in self._births.items() if k[0] == capacity}
-            record = births(capacity, np.random.default_rng((self._seed, capacity, number)))
+            # A rear half has half of the drops at most.
+            size = capacity // 2 + 1 if rear else capacity
+            record = births(size, np.random.default_rng((self._seed, capacity, number)))
             record.setflags(write=False)
             self._births[capacity, number] = record
         return record
@@ -203,7 +213,12 @@ class RainView:
     def _veils(
         self, frame: FrameData, seen: _Observed, containers: list[ContainerData]
     ) -> list[VeilData]:
-        counts = {(c.area, c.kind): c.count for c in containers}
+        # Of a front half as high as a container is near flat ground.
+        counts = {
+            (c.area, c.kind): c.count * frame.look.height / c.shape[3]
+            for c in containers
+            if not c.key & 1
+        }
         look = frame.look
         veils = []
         for row in frame.areas:
