@@ -20,6 +20,11 @@ class Stats:
     impacts: int = 0
     splashes: int = 0
     containers: int = 0  # that the last draw used
+    clouds: int = 0  # that stand in the sky, in view or not
+    clouds_drawn: int = 0
+    impostors_refreshed: int = 0
+    cfa_computed: int = 0  # absorption factors that the last frame has computed, new clouds' apart
+    state: float = 0.0  # of the skies by the oldest climate, 0 clear to 1 storm
     quality: str = "auto"
     backend: str = "none"
 
@@ -30,3 +35,5 @@ class Stats:
         self.impacts = int(figures.get("impacts", 0))
         self.splashes = int(figures.get("splashes", 0))
         self.containers = int(figures.get("containers", 0))
+        self.clouds_drawn = int(figures.get("clouds_drawn", 0))
+        self.impostors_refreshed = int(figures.get("impostors_refreshed", 0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import esper
 
-from weather_ecs import snapshot
-from weather_ecs.components import Observer, Occluder, RainGauge, RippleSurface
+from weather_ecs import cloud_world, snapshot
+from weather_ecs.cloud_files import load_clouds, save_clouds
+from weather_ecs.components import Cloud, Observer, Occluder, RainGauge, RippleSurface
 from weather_ecs.components._base import FAR, integer, vector
 from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, WeatherError
 from weather_ecs.frame import FrameData
@@ -22,6 +24,8 @@ from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, setting
 from weather_ecs.sampling import Sample, SampleField
 from weather_ecs.stats import Stats
 from weather_ecs.systems import ExtractSystem, WeatherProcessor, WeatherState, scheduled
+from weather_ecs.systems.climate import oldest_state
+from weather_ecs.systems.cloud_rain import remove_all
 from weather_ecs.systems.gauge import GaugeBoard
 from weather_ecs.systems.queries import in_world, living
 from weather_ecs.systems.rain_view import RainView
@@ -78,6 +82,7 @@ class Weather:
         self._view_seed = self._state.seed
         if window is not None or context is not None:
             self._renderer = self._make_renderer()
+        self._state.drawn = self._renderer is not None
         self._backend: str = "none" if self._renderer is None else self._renderer.backend
         self._stats = Stats(quality=self._settings.name, backend=self._backend)
         self._observer: tuple[float, float, float] | None = None  # m, of the last draw
@@ -170,6 +175,27 @@ class Weather:
             snapshot.apply(self._state, loaded)
         self._extract.run(self._state)
         self._stats.time = self._state.clock.time
+
+    def load(self, path: str | os.PathLike[str]) -> tuple[int, ...]:
+        """Add the models, clouds, layers and climate of a file to the world; returns the entities.
+
+        A model takes the place of one of the same name. Raises WeatherFileError, and changes
+        nothing, for a file that is not good from end to end.
+        """
+        self._check_open()
+        content = load_clouds(path)
+        with in_world(self._world):
+            return cloud_world.add(content)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the models, clouds and layers of the world, and its oldest climate, to a file.
+
+        Raises WeatherFileError and OSError; the file is then what it was.
+        """
+        self._check_open()
+        with in_world(self._world):
+            content = cloud_world.gather()
+        save_clouds(path, content)
 
     # Drawing
 
@@ -289,6 +315,7 @@ class Weather:
             with in_world(self._world):
                 if esper.get_processor(WeatherProcessor) is self._processor:
                     esper.remove_processor(WeatherProcessor)
+                    remove_all(self._state)
         renderer, self._renderer = self._renderer, None
         if renderer is None:
             return
@@ -347,6 +374,11 @@ class Weather:
         field = self._sample_field()
         self._stats.mode = field.mode(x, z)
         self._stats.rain_rate_here = field.rain_rate(x, y, z)
+        with in_world(self._world):
+            climate = oldest_state(self._state)
+            self._stats.clouds = self._state.clouds.standing + len(living(Cloud))
+        self._stats.state = 0.0 if climate is None else climate
+        self._stats.cfa_computed = self._state.cloud_shapes.computed
 
     def _first_observer(self) -> tuple[float, float, float]:
         """Where nothing has been drawn yet: the oldest observer, or the origin."""
