@@ -28,12 +28,13 @@ from weather_ecs.components import (
     RainContainer,
     RainGauge,
     RippleSurface,
+    SnowFlakes,
     SplashEmitter,
     Sun,
     Wind,
 )
 from weather_ecs.errors import InvalidValueError
-from weather_ecs.frame import DropLook, SkyLight, SplashLook
+from weather_ecs.frame import DropLook, SkyLight, SnowLook, SplashLook
 
 ROOT = Path(__file__).resolve().parent.parent
 NAN, INF = math.nan, math.inf
@@ -93,6 +94,16 @@ CASES = [
     (RippleSurface, "clarity", [0.001, 1000]),
     (RippleSurface, "draw", [True, np.bool_(False)]),
     (RippleSurface, "catches_rain", [False, True]),
+    (SnowFlakes, "model", ["physical", "liu_tong"]),
+    (SnowFlakes, "size", [0.05, 50]),
+    (SnowFlakes, "size_maximum", [1, 50]),
+    (SnowFlakes, "exposure", [1e-4, 1]),
+    (SnowFlakes, "flutter", [0, 2]),
+    (SnowFlakes, "density", [0, 100]),
+    (SnowFlakes, "brightness", [0, 10]),
+    (SnowFlakes, "opacity", [0, 1]),
+    (SnowFlakes, "aperture", [0, 0.1]),
+    (SnowFlakes, "veil", [0, 10]),
     (SplashEmitter, "size", [0, 200]),
     (SplashEmitter, "largest", [0.001, 10]),
     (SplashEmitter, "duration", [0.02, 5]),
@@ -178,6 +189,16 @@ BAD = [
     (RippleSurface, "clarity", [0, 1001]),
     (RippleSurface, "draw", [0, 1, "yes"]),
     (RippleSurface, "catches_rain", [0, "no"]),
+    (SnowFlakes, "model", ["swiss", "", 1, None]),
+    (SnowFlakes, "size", [0, 51]),
+    (SnowFlakes, "size_maximum", [0.5, 51]),
+    (SnowFlakes, "exposure", [0, 2]),
+    (SnowFlakes, "flutter", [-0.1, 2.1]),
+    (SnowFlakes, "density", [-1, 101]),
+    (SnowFlakes, "brightness", [-1, 11]),
+    (SnowFlakes, "opacity", [-0.1, 1.1]),
+    (SnowFlakes, "aperture", [-0.1, 0.2]),
+    (SnowFlakes, "veil", [-1, 11]),
     (SplashEmitter, "size", [-1, 201]),
     (SplashEmitter, "largest", [0, 11]),
     (SplashEmitter, "duration", [0, 6]),
@@ -255,7 +276,9 @@ def test_every_field_of_every_component_is_among_the_cases():
 
 
 def test_defaults_are_those_of_the_frame():
-    for look, component in ((DropLook(), RainContainer()), (SplashLook(), SplashEmitter())):
+    for look, component in (
+        (DropLook(), RainContainer()), (SnowLook(), SnowFlakes()), (SplashLook(), SplashEmitter()),
+    ):  # fmt: skip
         names = [field.name for field in dataclasses.fields(look)]
         assert [field.name for field in dataclasses.fields(component)] == names
         assert all(getattr(component, name) == getattr(look, name) for name in names)

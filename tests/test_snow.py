@@ -1,4 +1,4 @@
-"""Snow in the air: its laws against figures, what a snowfall adds up to, and the flakes' pictures."""
+"""Snow in the air: its laws against figures, what it adds up to, and the flakes' pictures."""
 
 from __future__ import annotations
 

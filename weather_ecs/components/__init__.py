@@ -20,6 +20,7 @@ from weather_ecs.components.rain_gauge import RainGauge
 from weather_ecs.components.ripple_surface import RippleSurface
 from weather_ecs.components.sky import Sky
 from weather_ecs.components.sky_layer import SkyLayer
+from weather_ecs.components.snow_flakes import SnowFlakes
 from weather_ecs.components.splash_emitter import SplashEmitter
 from weather_ecs.components.sun import Sun
 from weather_ecs.components.wind import Wind
@@ -40,6 +41,7 @@ SNAPSHOT_COMPONENTS: dict[str, type[Component]] = {
         RainContainer,
         RippleSurface,
         SkyLayer,
+        SnowFlakes,
         SplashEmitter,
         Sun,
         Wind,
@@ -64,6 +66,7 @@ __all__ = [
     "RippleSurface",
     "Sky",
     "SkyLayer",
+    "SnowFlakes",
     "SplashEmitter",
     "Sun",
     "Wind",

@@ -16,7 +16,8 @@ void main()
     // The smallest pictures are even squares: their corners are cut off, as are blurred ones'.
     float r2 = dot(at, at);
     // Of a small picture the gaps between the arms are gone, and they must not make it pale.
-    float cover = min(seen.r * mix(1.0, 4.0, smoothstep(0.5, 4.0, gs_turn.w)), 1.0);
+    float small = smoothstep(0.5, 4.0, gs_turn.w);
+    float cover = min(seen.r * mix(1.0, 4.0, small), 1.0);
     cover *= smoothstep(1.35, 0.6, r2);
-    color = vec4(gs_color.rgb * seen.g, gs_color.a * cover);
+    color = vec4(gs_color.rgb * mix(seen.g, 1.0, small), gs_color.a * cover);
 }

@@ -81,9 +81,13 @@ void main()
     float soft = snow_look.x * max(1.0 - head.w / FOCUS, 0.0) * per_metre;
     float shown = max(pixels + soft, SMALLEST);
     float smear = length(way);
-    // The disc's own area over that of what is drawn: the disc, blurred and drawn out.
-    float spread = pixels * pixels / (shown * (shown + 1.273 * smear));
-    float opacity = min(covered / (FILL * size * size), drop_look.w) * min(spread * 1.25, 1.0);
+    // What is drawn is the flake, blurred and drawn out; what it stands for fills that too, but the
+    // fainter it must be at most.
+    float blurred = pixels + soft;
+    float longer = 1.0 + 1.273 * smear / blurred;
+    float area = blurred * blurred * longer / (per_metre * per_metre);
+    float most = drop_look.w * inversesqrt(longer) * pixels / blurred;
+    float opacity = min(covered / (FILL * area), most) * min(blurred / SMALLEST, 1.0);
     opacity *= smoothstep(0.2, 0.7, head.w);
     if (opacity < 0.004) return;
 
@@ -98,5 +102,7 @@ void main()
 
     vec3 ray = p - camera_position.xyz;
     float away = length(ray);
-    vs_color = vec4(encode(in_fog(flake_light(p, ray / away), away)), opacity);
+    // No two flakes lie alike to the light.
+    vec3 light = flake_light(p, ray / away) * (0.85 + 0.3 * float((word >> 7u) & 63u) / 63.0);
+    vs_color = vec4(encode(in_fog(light, away)), opacity);
 }

@@ -19,6 +19,7 @@ from weather_ecs.components import (
     RainContainer,
     RainGauge,
     RippleSurface,
+    SnowFlakes,
     SplashEmitter,
     Sun,
     Wind,
@@ -35,6 +36,7 @@ from weather_ecs.frame import (
     HeightmapLook,
     OccluderData,
     SkyLight,
+    SnowLook,
     SplashLook,
     empty,
 )
@@ -54,6 +56,7 @@ _KINDS = (
     PointLight,
     Sun,
     RainContainer,
+    SnowFlakes,
     SplashEmitter,
     RippleSurface,
     CollisionHeightmap,
@@ -61,6 +64,7 @@ _KINDS = (
     Fog,
 )
 _LOOK = tuple(item.name for item in fields(DropLook))
+_FLAKES = tuple(item.name for item in fields(SnowLook))
 _SPLASH = tuple(item.name for item in fields(SplashLook))
 _NO_AREAS = empty(AREA_DTYPE)
 _NO_LIGHTS = empty(LIGHT_DTYPE)
@@ -88,6 +92,7 @@ class ExtractSystem:
         self._wind, self._profile = (0.0, 0.0, 0.0), CALM
         self._parts: tuple[NDArray, SkyLight, DropLook]
         self._air, self._fog = AirData(), FogData()
+        self._flakes = SnowLook()
         self._splash: SplashLook | None = None
         self._occluders = OccluderList()
         self._ripples = RippleList()
@@ -163,6 +168,7 @@ class ExtractSystem:
             look=look,
             occluders=occluders,
             splash=self._splash,
+            flakes=self._flakes,
             ripples=self._ripples.surfaces,
             wetness=state.wet_ground.data(),
             snow_ground=state.snow_ground.data(),
@@ -201,6 +207,7 @@ class ExtractSystem:
         self._parts = (lights, _sky(state), _look(state))
         self._air, self._fog = air_data(state), fog_data(state, self._parts[1])
         self._splash = _splash(state)
+        self._flakes = _flakes(state)
         self._ripples.collect(state)
         self._heightmap, self._layers = _heightmap(state)
         self._entities = [
@@ -229,6 +236,12 @@ def _look(state: WeatherState) -> DropLook:
     for _, container in alive(RainContainer, state.uids):
         return DropLook(*[getattr(container, name) for name in _LOOK])
     return DropLook()
+
+
+def _flakes(state: WeatherState) -> SnowLook:
+    for _, flakes in alive(SnowFlakes, state.uids):
+        return SnowLook(*[getattr(flakes, name) for name in _FLAKES])
+    return SnowLook()
 
 
 def _splash(state: WeatherState) -> SplashLook | None:
