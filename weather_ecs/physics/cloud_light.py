@@ -91,6 +91,17 @@ class Body:
     flash: float = 0.0
 
 
+@dataclass(frozen=True, slots=True)
+class Lit:
+    """Light at vertices, linear RGB (..., 3) and shares (...,)."""
+
+    lit: Array  # of what faces the sun
+    shade: Array  # of what is turned from it
+    rim: Array  # that shines through where the cloud is thin
+    facing: Array  # 0 to 1: which of the first two the vertex itself shows
+    relief: Array  # how much an image's own relief adds to that
+
+
 def full_light(
     v: Array,
     s: Array,
@@ -99,21 +110,19 @@ def full_light(
     body: Body,
     light: Surround,
     look: tuple[float, float, float] = (1.0, 1.0, 1.0),
-) -> tuple[Array, Array, Array, Array]:
-    """Light of what faces the sun, of what does not, of the rim, and which of the first two (...,).
-
-    look: strengths of lining, bases, ambient.
+) -> Lit:
+    """The light of a cloud with lining, dark base, sky and ground; look: strengths of lining,
+    bases and ambient. The sun comes in by the absorption `a`, as in the plain model.
     """
     silver, bases, ambience = look
     q = v / body.half_size
     whole, own = q / body.half_size, v - s
-    n = 0.65 * whole / np.maximum(_length(whole), 1e-9) + 0.35 * own / np.maximum(
-        _length(own), 1e-3
-    )
+    n = 0.60 * whole / np.maximum(_length(whole), 1e-9)
+    n = n + 0.30 * own / np.maximum(_length(own), 1e-3) - 0.45 * w
     n = n / np.maximum(_length(n), 1e-6)
     rise = np.clip((v[..., 1] - body.base) / (2.0 * body.half_size[1]), 0.0, 1.0)
     towards = n @ light.direction
-    through = np.exp(-1.35 * np.asarray(a))
+    through = np.exp(-0.75 * a)
 
     up = 0.5 + 0.5 * n[..., 1]
     up = (up * up * (3.0 - 2.0 * up))[..., None]
@@ -121,22 +130,22 @@ def full_light(
     ambient = ambient * (ambience * (0.62 + 0.38 * rise))[..., None]
     deep = bases * (0.30 + 0.70 * body.darkness)
     under = 1.0 - deep * (1.0 - smoothstep(0.0, 0.55, rise)) * 0.62
-    dim = (under * (1.0 - 0.45 * body.darkness * bases))[..., None]
+    dim = (under * (1.0 - 0.38 * body.darkness * bases))[..., None]
 
     sun = light.sun * through[..., None]
     ahead = w @ light.direction
-    forward = 0.18 * (0.5 + 0.5 * ahead) ** 6 + 0.9 * np.maximum(ahead, 0.0) ** 40
-    lit = (sun * (0.70 + 0.10 * towards)[..., None] + ambient) * dim
-    shade = (sun * (0.17 + 0.06 * towards)[..., None] + 0.92 * ambient) * dim
-    facing = np.clip(0.5 + 0.52 * towards - 0.30 * a, 0.0, 1.0)
+    forward = 0.16 * (0.5 + 0.5 * ahead) ** 6 + 0.7 * np.maximum(ahead, 0.0) ** 24
+    lit = (sun * (0.92 + 0.08 * towards)[..., None] + ambient) * dim
+    shade = (sun * (0.22 + 0.06 * towards)[..., None] + 0.95 * ambient) * dim
+    facing = np.clip(0.62 + 0.50 * towards - 0.28 * a, 0.0, 1.0)
 
     aside = q - w * (q * w).sum(-1, keepdims=True)
-    edge = smoothstep(0.35, 0.95, _length(aside)[..., 0])
-    rim = (silver * forward * (0.25 + 0.75 * edge) * (1.0 - 0.6 * a))[..., None] * light.sun
+    edge = smoothstep(0.45, 1.0, _length(aside)[..., 0])
+    rim = (silver * forward * (0.12 + 0.88 * edge) * (1.0 - 0.5 * a))[..., None] * light.sun
 
     inside = np.maximum(1.0 - 0.55 * (q * q).sum(-1), 0.12)[..., None]
     flash = body.flash * inside * np.array([0.86, 0.90, 1.0])
-    return lit + flash, shade + flash, rim, facing
+    return Lit(lit + flash, shade + flash, rim, facing, 0.62 - 0.38 * np.asarray(a))
 
 
 def _length(x: Array) -> Array:

@@ -35,7 +35,7 @@ void main()
     alpha *= clearance();
 #endif
     vec2 slope = texel.rg * 2.0 - 1.0;
-    float facing = clamp(vs_fade.w + 0.55 * dot(slope, vs_relief), 0.0, 1.0);
+    float facing = clamp(vs_fade.w + dot(slope, vs_relief), 0.0, 1.0);
     vec3 light = mix(vs_shade, vs_lit, facing) * texel.b + vs_rim * (1.0 - texel.a * texel.a);
     color = vec4(mix(light, vs_haze.rgb, vs_haze.w) * alpha, alpha);
 }

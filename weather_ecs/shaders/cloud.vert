@@ -66,7 +66,8 @@ void main()
     vs_shade = encode(light.shade);
     vs_rim = light.rim;
     vec2 sun = vec2(dot(cloud_sun.xyz, right), dot(cloud_sun.xyz, up));
-    vs_relief = plain ? vec2(0.0) : vec2(dot(sun, ex), dot(sun, ey));
+    // In the shade the light comes from all round and shows no relief.
+    vs_relief = plain ? vec2(0.0) : vec2(dot(sun, ex), dot(sun, ey)) * light.relief;
     vs_fade.w = light.facing;
 
     // Nothing is left of a billboard that the camera comes to.

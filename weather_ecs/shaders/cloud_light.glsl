@@ -9,6 +9,7 @@ struct Light {
     vec3 shade;  // of what is turned from it
     vec3 rim;  // that shines through where the cloud is thin
     float facing;  // 0 to 1: which of the two the vertex itself shows
+    float relief;  // how much the image's own relief adds to it
 };
 
 // The dissertation's own: diffuse = clamp(dot(sun, unit(v)) * sun colour - absorbed, 0, 1).
@@ -17,16 +18,18 @@ Light plain_light(vec3 v, float a)
     vec3 n = v / max(length(v), 1e-6);
     vec3 diffuse = clamp(dot(cloud_sun.xyz, n) * cloud_sun_color.rgb - a, 0.0, 1.0);
     vec3 color = diffuse + cloud_ambient.rgb;
-    return Light(color, color, vec3(0.0), 0.5);
+    return Light(color, color, vec3(0.0), 0.5, 0.0);
 }
 
 Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
 {
     vec3 q = v / cloud.half_size;
-    // The way out of the cloud: of the whole as an ellipsoid, and of the seed.
+    // The way out of the cloud, of the whole as an ellipsoid and of the seed; and what is seen of a
+    // cloud is turned towards the camera.
     vec3 whole = q / cloud.half_size;
     vec3 own = v - s;
-    vec3 n = 0.65 * whole / max(length(whole), 1e-9) + 0.35 * own / max(length(own), 1e-3);
+    vec3 n = 0.60 * whole / max(length(whole), 1e-9) + 0.30 * own / max(length(own), 1e-3)
+        - 0.45 * way;
     n /= max(length(n), 1e-6);
     float rise = clamp((v.y - cloud.base) / (cloud.half_size.y * 2.0), 0.0, 1.0);
     float towards = dot(cloud_sun.xyz, n);
@@ -38,7 +41,7 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     ambient *= cloud_look.z * (0.62 + 0.38 * rise);
     float deep = cloud_look.y * (0.30 + 0.70 * cloud.darkness);
     float under = 1.0 - deep * (1.0 - smoothstep(0.0, 0.55, rise)) * 0.62;
-    float gloom = 1.0 - 0.45 * cloud.darkness * cloud_look.y;
+    float gloom = 1.0 - 0.38 * cloud.darkness * cloud_look.y;
 
     vec3 sun = cloud_sun_color.rgb * through;
     float ahead = dot(way, cloud_sun.xyz);
@@ -49,11 +52,12 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     light.lit = (sun * (0.92 + 0.08 * towards) + ambient) * under * gloom;
     light.shade = (sun * (0.22 + 0.06 * towards) + ambient * 0.95) * under * gloom;
     light.facing = clamp(0.62 + 0.50 * towards - 0.28 * a, 0.0, 1.0);
+    light.relief = 0.62 - 0.38 * a;
 
     // Lining: where the cloud ends beside the line of sight, so that little lies behind.
     vec3 aside = q - way * dot(q, way);
-    float edge = smoothstep(0.30, 0.90, length(aside));
-    light.rim = cloud_look.x * cloud_sun_color.rgb * forward * (0.15 + 0.85 * edge) * (1.0 - 0.5 * a);
+    float edge = smoothstep(0.45, 1.0, length(aside));
+    light.rim = cloud_look.x * cloud_sun_color.rgb * forward * (0.12 + 0.88 * edge) * (1.0 - 0.5 * a);
 
     float inside = max(1.0 - 0.55 * dot(q, q), 0.12);
     vec3 flash = cloud.flash * inside * vec3(0.86, 0.90, 1.0);
