@@ -34,6 +34,7 @@ def law_of(container: ContainerData, view: ViewData) -> StreakLaw:
         container.axis, container.shape, container.area_axis, container.area_shape,
         container.law, container.load, container.count, 1.0 / max(FADE * container.count, 1.0),
         look.size_maximum, container.size_scale, look.width, look.opacity, look.density,
+        container.dry,
     )  # fmt: skip
 
 
@@ -120,7 +121,7 @@ class StreakCapture:
         data = self._draw.data
         data["container_axis"], data["container_shape"] = law.container_axis, law.container_shape
         data["area_axis"], data["area_shape"] = law.area_axis, law.area_shape
-        data["drop_law"] = law.law
+        data["drop_law"], data["drop_dry"] = law.law, law.dry
         data["drop_load"] = (law.load, law.count, law.fade, law.density)
         data["drop_look"] = (law.size_maximum, law.size_scale, law.width, law.opacity)
         for block in (self._view, self._draw):

@@ -202,7 +202,7 @@ def test_any_times_keep_it_finite(steps, window):
 
 def test_a_server_reads_its_gauges():
     Weather()
-    area = RainArea((0, 0), (60, 40), RATE)
+    area = RainArea((0, 0), (60, 40), RATE, onset=0.0)
     esper.create_entity(area)
     open_air, under, beside = (RainGauge((x, 1.0, 0), window=10.0) for x in (0.0, 20.0, 24.0))
     for gauge in (open_air, under, beside):

@@ -22,6 +22,7 @@ from weather_ecs.gpu.veil_pass import VeilPass
 from weather_ecs.gpu.view_block import encode, fill_view, veil_light
 from weather_ecs.physics import veil
 from weather_ecs.physics.camera import Camera
+from weather_ecs.physics.front import LONG, extinction_arrived
 from weather_ecs.physics.optics import fog_factor
 from weather_ecs.systems.rain_view import RainView
 
@@ -113,6 +114,21 @@ def test_the_profile_and_the_opacity() -> None:
     assert veil.opacity([0.0, 100.0], 0.01) == pytest.approx([0.0, 1 - math.exp(-1)])
 
 
+def test_where_rain_begins_its_lower_edge_is_that_of_the_drops() -> None:
+    """Against a sum over small steps, each with the share that has come down there."""
+    axis, shape, dry = axis_of((0.0, -150.0), 0.4), (70.0, 45.0, 0.5), (20.0, LONG, 0.0, 0.0)
+    for pitch in (-0.2, 0.0, 0.1, 0.3, 0.6):
+        ray = np.array([0.0, math.sin(pitch), -math.cos(pitch)])
+        t = (np.arange(40_000) + 0.5) * 0.01
+        at = np.array(HERE) + ray * t[:, None]
+        share = veil.full_share(at[:, [0, 2]], axis, shape) * (at[:, 1] <= 200.0)
+        share *= extinction_arrived(200.0 - at[:, 1], dry, 25.0)
+        found = veil.rain_path(
+            HERE, ray[None], [math.inf], axis, shape, 200.0, 0.0, dry, 25.0
+        )[0]  # fmt: skip
+        assert found == pytest.approx(float(share.sum() * 0.01), rel=0.05, abs=0.5)
+
+
 # The shader
 
 
@@ -186,8 +202,9 @@ def rays_of(at: Camera, size: tuple[int, int] = SIZE) -> np.ndarray:
 def oracle(at: Camera, data: VeilData, end: Any = math.inf) -> np.ndarray:
     """Opacity of every pixel."""
     path = veil.rain_path(
-        at.position, rays_of(at), end, data.axis, data.shape, data.span[1], data.shown
-    )
+        at.position, rays_of(at), end, data.axis, data.shape, data.span[1], data.shown,
+        data.dry, (data.slope / 4.1) ** (-1.0 / 0.21),
+    )  # fmt: skip
     return veil.opacity(path, data.extinction)
 
 
@@ -243,6 +260,13 @@ SCENES = {
         camera((0.0, 1.7, 4000.0), NORTH, vertical=4.0),
         shaft(shape=(70.0, 45.0, 0.9999)),
     ),
+    "begins": (camera(HERE, NORTH), shaft(dry=(20.0, LONG, 0.0, 0.0))),
+    "begins, from inside": (
+        camera((0.0, 1.7, -150.0), 1.0, 0.8),
+        shaft(dry=(15.0, LONG, 0.0, 0.0), slope=1.6, shown=20.0),
+    ),
+    "ends": (camera(HERE, NORTH), shaft(dry=(-1.0, 30.0, 0.0, 0.0), slope=3.0)),
+    "a short one passes": (camera(HERE, NORTH), shaft(dry=(40.0, LONG, -1.0, 12.0))),
     "far off, thin": (
         camera((0.0, 1.7, 4000.0), NORTH, vertical=4.0),
         shaft(shape=(300.0, 3.0, 0.2), extinction=0.2),
@@ -284,7 +308,7 @@ def test_rain_in_fog_takes_its_colour(stage: Stage, name: str) -> None:
     there = oracle(at, data)
     away = veil.rain_distance(
         at.position, rays_of(at), math.inf, data.axis, data.shape, data.span[1], data.shown,
-        data.extinction,
+        data.extinction, data.dry, (data.slope / 4.1) ** (-1.0 / 0.21),
     )  # fmt: skip
     left = fog_factor(np.maximum(away, 0.0), FOG.extinction)[..., None]
     wanted = encode(veil_light(SkyLight())) * left + encode(np.array(FOG.color)) * (1.0 - left)

@@ -41,6 +41,7 @@ from weather_ecs.gpu.wetness_pass import DRY_AFTER, ROUND, WetnessPass
 from weather_ecs.physics import wet_map
 from weather_ecs.physics.ellipse import edge_factor
 from weather_ecs.physics.footprint import fall_speed_over
+from weather_ecs.physics.front import SETTLED, water_arrived
 from weather_ecs.physics.snow_cover import melt_rate
 from weather_ecs.physics.wetness import DRYING, FILM, film_capacity, settle_one
 from weather_ecs.systems.rain_view import RainView
@@ -121,8 +122,9 @@ class Maps:
         found = wet_map.surface(place, footprint, *depths)
         points = found.position.reshape(-1, 3)
         rate = np.zeros(len(points))
-        for _, center, radii, heading, full, edge, ceiling in frame.areas.tolist():
+        for key, center, radii, heading, full, edge, ceiling in frame.areas.tolist():
             share = edge_factor(points[:, [0, 2]], center, radii, heading, edge)
+            share *= water_arrived(ceiling - points[:, 1], frame.fronts.get(key, SETTLED), full)
             rate += np.where(points[:, 1] < ceiling, full * share, 0.0)
         far = self.far(points[:, [0, 2]]).reshape(place.size, place.size, 2)
         water, seconds = wet_map.carried(found, far, before, old, ages)
@@ -180,15 +182,19 @@ SNOW = AirData(-3.0, 0.9, -3.5, 1.0)
 
 
 @pytest.mark.parametrize(
-    ("wind", "air"),
+    ("wind", "air", "fronts"),
     [
-        ((0.0, 0.0, 0.0), RAIN),
-        ((5.0, 0.0, -3.0), RAIN),
-        ((0.0, 0.0, 0.0), SNOW),
-        ((2.0, 0.0, 0.0), SLEET),
+        ((0.0, 0.0, 0.0), RAIN, {}),
+        ((5.0, 0.0, -3.0), RAIN, {}),
+        ((0.0, 0.0, 0.0), SNOW, {}),
+        ((2.0, 0.0, 0.0), SLEET, {}),
+        ((0.0, 0.0, 0.0), RAIN, {0: (46.0, 1e9, 0.0, 0.0)}),
+        ((5.0, 0.0, -3.0), RAIN, {0: (-1.0, 70.0, 0.0, 0.0)}),
     ],
 )
-def test_the_map_is_what_its_oracle_says(maps: Maps, wind: Point, air: AirData) -> None:
+def test_the_map_is_what_its_oracle_says(
+    maps: Maps, wind: Point, air: AirData, fronts: Any
+) -> None:
     before, old, snowed = None, None, False
     ages = np.zeros(wet_map.BANDS)
     cart = placed((-4, 1.5, 0), (1.5, 0.5, 1.5))
@@ -196,7 +202,7 @@ def test_the_map_is_what_its_oracle_says(maps: Maps, wind: Point, air: AirData) 
     moments = [(10.0, 0, wind), (10.1, 0, wind), (11.2, 0, wind), (11.3, 4.2, wind)]
     moments += [(11.4, 4.2, (-4.0, 0.0, 2.0)), (12.9, 4.2, (-4.0, 0.0, 2.0))]
     for k, (time, x, now) in enumerate(moments):
-        data = scene(time, GROUND, ROOF, box(2, cart, True), wind=now, air=air)
+        data = scene(time, GROUND, ROOF, box(2, cart, True), wind=now, air=air, fronts=fronts)
         # In the end all of it thaws.
         if k == len(moments) - 1 and air.snow_share == 1.0:
             data = replace(data, air=AirData(6.0, 0.8, 5.0, 0.0))

@@ -20,6 +20,7 @@ from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
 from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass, drops_used
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.footprint import fall_speed_of
+from weather_ecs.physics.front import SETTLED, landing_share
 from weather_ecs.physics.gauge import catch_radius, landing_water
 from weather_ecs.physics.rain_field import RainField
 from weather_ecs.physics.snowfall import smallest_speed, snowfall
@@ -35,7 +36,8 @@ _SLOWEST = 2.0  # m/s, of the smallest drops
 GAUGE = UniformBlock(
     "Gauge",
     ("gauge_place", "vec4", MAX_GAUGES),  # m, of the opening's middle; radius of the catch
-    ("gauge_shape", "vec4", MAX_GAUGES),  # m, opening's radius; share of the area's rain there
+    # m, opening's radius; share of the area's rain there; mean water of its drops over the area's
+    ("gauge_shape", "vec4", MAX_GAUGES),
     ("gauge_scale", "vec2"),  # of a texel in clip space
     ("gauge_row", "float"),
     ("gauge_water", "float"),  # mm3, of a drop that lands, on average
@@ -161,7 +163,8 @@ class GaugePass:
         for k, (gauge, radius) in enumerate(zip(gauges, radii, strict=True)):
             share = field.rate(*gauge.position) / full
             self._block["gauge_place"][k] = (*gauge.position, radius)
-            self._block["gauge_shape"][k] = (math.sqrt(gauge.area / math.pi), share, 0.0, 0.0)
+            heavier = _water_share(container, gauge.position[1])
+            self._block["gauge_shape"][k] = (math.sqrt(gauge.area / math.pi), share, heavier, 0.0)
         air = view.frame.profile
         wind = math.hypot(view.frame.wind[0], view.frame.wind[2])
         wind *= max(height_share(highest - air.ground, air.reference, air.exponent), 1.0)
@@ -228,6 +231,15 @@ def _joined(
         else:
             found[half] = (area, 0.0, 0.0, first)
     return tuple(found.values())
+
+
+def _water_share(container: ContainerData, y: float) -> float:
+    """Mean water of the drops that land at a height over that of all the area's."""
+    if container.dry == SETTLED or container.kind == SNOW:
+        return 1.0
+    fall = container.area_shape[3] - y
+    number, water = landing_share(fall, container.dry, container.rate)
+    return water / number if number > 1e-6 else 1.0
 
 
 def _catch_radius(gauge: GaugeData, container: ContainerData, fall_speed: float) -> float:

@@ -54,6 +54,7 @@ RAIN_DRAW = UniformBlock(
     ("drop_law", "vec4"),
     ("drop_load", "vec4"),  # load, count, 1 / width of the count's fade, density (look)
     ("drop_look", "vec4"),  # Eq. 3's maximum, size scale, width, opacity
+    ("drop_dry", "vec4"),  # s, fall times of the drops that are missing; see rain_front.glsl
 )
 
 # One area's veil.
@@ -62,8 +63,9 @@ VEIL = UniformBlock(
     ("veil_axis", "vec4"),
     ("veil_shape", "vec4"),  # a, b, level of f inside which the rate is full
     ("veil_span", "vec4"),  # bottom, top
-    ("veil_load", "vec4"),  # extinction in 1/m, distance to which the drops show it in m
+    ("veil_load", "vec4"),  # extinction in 1/m, distance to which the drops show it in m, slope
     ("veil_tint", "vec4"),  # encoded, its colour
+    ("veil_dry", "vec4"),  # s, fall times of the drops that are missing; see rain_front.glsl
 )
 
 # The collision heightmap of one observer.

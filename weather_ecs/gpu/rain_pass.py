@@ -216,7 +216,7 @@ class RainPass:
         data = self._draw_block.data
         data["container_axis"], data["container_shape"] = container.axis, container.shape
         data["area_axis"], data["area_shape"] = container.area_axis, container.area_shape
-        data["drop_law"] = container.law
+        data["drop_law"], data["drop_dry"] = container.law, container.dry
         # A far drop is drawn larger, not fainter: of a shaft it is the grain.
         density = min(container.size_scale**2, 16.0) * container.cover
         if container.kind == SNOW:

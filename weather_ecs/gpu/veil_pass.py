@@ -37,7 +37,8 @@ class VeilPass:
             data["veil_axis"] = veil.axis
             data["veil_shape"] = (*veil.shape, 0.0)
             data["veil_span"] = (*veil.span, 0.0, 0.0)
-            data["veil_load"] = (veil.extinction, veil.shown, 0.0, 0.0)
+            data["veil_load"] = (veil.extinction, veil.shown, veil.slope, 0.0)
+            data["veil_dry"] = veil.dry
             snow = veil.snow
             data["veil_tint"][:3] = encode(mixed(view.frame, snow)) if snow > 0.0 else rain
             self._block.upload()

@@ -23,7 +23,8 @@ from weather_ecs.gpu.rain_pass import SHELTER_UNIT
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.wetness_far import HALF, WATCHED, FarField, rains_within, wet_within
 from weather_ecs.gpu.wetness_map import WetnessMap
-from weather_ecs.physics.front import on_level_ground
+from weather_ecs.physics.drops import slope
+from weather_ecs.physics.front import SETTLED
 from weather_ecs.physics.snow_cover import melt_rate
 from weather_ecs.physics.wet_map import BANDS, RINGS, MapPlace, place_over
 
@@ -45,7 +46,8 @@ STEP = UniformBlock(
     ("wet_ages", "vec4", BANDS // 4),  # s since each band's last update
     ("wet_area_axis", "vec4", MAX_AREAS),
     ("wet_area_shape", "vec4", MAX_AREAS),
-    ("wet_area_rate", "vec4", MAX_AREAS),  # mm/h
+    ("wet_area_rate", "vec4", MAX_AREAS),  # mm/h; slope of the diameters in 1/mm
+    ("wet_area_dry", "vec4", MAX_AREAS),  # s, fall times of the drops that are missing
     ("wet_areas", "int"),
     ("wet_bands", "int"),  # rows in a band
     ("wet_rings", "ivec2"),  # texels, radii in which a hollow is looked for
@@ -186,8 +188,7 @@ class WetnessPass:
         block["wet_ages"].reshape(-1)[:] = np.maximum(frame.time - seen.times, 0.0)
         data["wet_bands"] = place.rows
         data["wet_rings"] = [max(round(radius / texel), 1) for radius in RINGS]
-        areas = on_level_ground(frame.areas, frame.fronts)
-        areas = areas[areas["rain_rate"] > 0.0]
+        areas = frame.areas[frame.areas["rain_rate"] > 0.0]
         if len(areas) > MAX_AREAS:
             away = np.linalg.norm(areas["center"] - np.array(view.position)[[0, 2]], axis=1)
             areas = areas[np.argsort(away - areas["radii"][:, 0], kind="stable")[:MAX_AREAS]]
@@ -200,6 +201,10 @@ class WetnessPass:
         block["wet_area_shape"][:count, 2] = np.minimum(areas["soft_edge"], areas["radii"][:, 1])
         block["wet_area_shape"][:count, 3] = areas["ceiling"]
         block["wet_area_rate"][:count, 0] = areas["rain_rate"]
+        block["wet_area_rate"][:count, 1] = slope(np.maximum(areas["rain_rate"], 1e-3))
+        fronts = frame.fronts
+        for k, key in enumerate(areas["key"].tolist()):
+            block["wet_area_dry"][k] = fronts.get(key, SETTLED)
         block.upload()
         block.bind()
 

@@ -10,19 +10,26 @@ has ended: (-1, seconds since, 0, 0). shaders/drop_law.glsl has the same.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .checks import FloatArray
-from .drops import ATLAS, LARGEST_DROP, SMALLEST_DROP, moment, slope, terminal_speed
+from .drops import ATLAS, LARGEST_DROP, SMALLEST_DROP, moment, terminal_speed
 
 Dry = tuple[float, float, float, float]
 SETTLED: Dry = (0.0, 0.0, 0.0, 0.0)  # no spell: the drops are everywhere
+NO_FRONTS: Mapping[int, Dry] = MappingProxyType({})
 LONG = 1e9  # s, for ever
 EDGE = 0.5  # s over which the drops of a spell's end fade
 SLOWEST = float(terminal_speed(SMALLEST_DROP))  # m/s
 FASTEST = float(terminal_speed(LARGEST_DROP))
+
+
+def steepness(rain_rate: float) -> float:
+    """Slope of the diameters in 1/mm, also where there is next to no rain."""
+    return 4.1 * max(rain_rate, 1e-3) ** -0.21
 
 
 def fallen_share(fall_time: ArrayLike, dry: Dry) -> FloatArray:
@@ -42,7 +49,7 @@ def diameter_at(speed: ArrayLike) -> FloatArray:
 def water_below(speed: ArrayLike, rain_rate: float) -> FloatArray:
     """Share of the water crossing a level plane that drops slower than `speed` carry."""
     top, factor, decay = ATLAS
-    steep, size = float(slope(max(rain_rate, 1e-3))), diameter_at(speed)
+    steep, size = steepness(rain_rate), diameter_at(speed)
     slow = factor * np.exp(-decay * SMALLEST_DROP)
 
     def carried(until: ArrayLike) -> FloatArray:
@@ -53,7 +60,7 @@ def water_below(speed: ArrayLike, rain_rate: float) -> FloatArray:
 
 def extinction_below(speed: ArrayLike, rain_rate: float) -> FloatArray:
     """Share of the extinction that drops slower than `speed` are the cause of."""
-    steep = float(slope(max(rain_rate, 1e-3)))
+    steep = steepness(rain_rate)
     return np.asarray(moment(2, steep, diameter_at(speed)) / moment(2, steep))
 
 
@@ -82,7 +89,7 @@ def landing_share(fall: float, dry: Dry, rain_rate: float) -> tuple[float, float
     """(share of the drops, share of the water) that land at `fall` metres below the ceiling."""
     size = np.linspace(SMALLEST_DROP, LARGEST_DROP, 512)
     speed = terminal_speed(size)
-    crossing = np.exp(-float(slope(max(rain_rate, 1e-3))) * (size - SMALLEST_DROP)) * speed
+    crossing = np.exp(-steepness(rain_rate) * (size - SMALLEST_DROP)) * speed
     there = fallen_share(max(fall, 0.0) / speed, dry)
     water = crossing * size**3
     return (

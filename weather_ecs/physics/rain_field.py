@@ -7,15 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .front import SETTLED, Dry, water_arrived
-
-NO_FRONTS: Mapping[int, Dry] = MappingProxyType({})
+from .front import NO_FRONTS, SETTLED, Dry, water_arrived
 
 
 class RainField:

@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 
 from .checks import FloatArray
 from .ellipse import edge_factor
+from .front import SETTLED, Dry, fallen_share
 from .lod import rim_fade, size_factor, weight_shape
-from .rain_step import diameters, to_container
+from .rain_step import diameters, fall_speeds, to_container
 
 LANDED = 1024.0  # m/s upwards: no velocity but the mark of a drop that has hit something
 CLOSEST = 0.1  # m in front of the camera
@@ -63,6 +64,7 @@ class StreakLaw:
     width: float  # factor on the drop's diameter
     opacity: float  # greatest of one streak
     density: float = 1.0  # factor on how much the drops cover; 1 is what nature shows
+    dry: Dry = SETTLED  # fall times of the drops that are missing
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +128,10 @@ def streaks(p: NDArray, v: NDArray, birth: NDArray, view: StreakView, law: Strea
     weight, d = drop_weight(p, birth[:, 2], np.arange(n), law)
     rise = (p[:, 1] - law.container_shape[2]) / law.container_shape[3]
     weight = weight * np.clip((1.0 - rise) * 8.0, 0.0, 1.0) * (p[:, 1] <= law.area_shape[3])
-    diameter = diameters(birth[:, 3], law.law) * 1e-3
+    size = diameters(birth[:, 3], law.law)
+    fallen = (law.area_shape[3] - p[:, 1]) / np.maximum(fall_speeds(size), 0.1)
+    weight = weight * fallen_share(fallen, law.dry)
+    diameter = size * 1e-3
     width = diameter * size_factor(d, law.size_maximum) * law.width * law.size_scale
     area = width * (np.linalg.norm(path, axis=1) + width)
     solid = np.minimum(0.25 * math.pi * diameter**2 * weight * law.density / area, law.opacity)

@@ -14,7 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .checks import FloatArray
+from .front import SETTLED, Dry, extinction_arrived
 
+PARTS = 6  # of a way through rain that begins or ends; also in shaders/veil.frag
 BEYOND = 1e5  # m, where a ray ends that meets nothing
 
 
@@ -84,11 +86,15 @@ def rain_path(
     shape: tuple[float, float, float],
     ceiling: float,
     shown: float = 0.0,
+    dry: Dry = SETTLED,
+    rain_rate: float = 0.0,
 ) -> FloatArray:
     """Metres of rain at its full rate along rays (..., 3) that end at the depths `end`.
 
     For `axis` and `shape` see `full_share`; `shown` is the distance (m) at which the drops' share
-    has fallen to 0. Multiplied by the extinction this is the optical depth.
+    has fallen to 0. Multiplied by the extinction this is the optical depth. `dry` and `rain_rate`
+    (mm/h) as in `physics.front`, where rain begins or ends: the integral is then one of PARTS,
+    in each of which the share that has come down is that at its middle.
     """
     t0, t1 = rain_span(position, ray, end, ceiling, shown)
     c, s = axis[2], axis[3]
@@ -101,7 +107,21 @@ def rain_path(
     aside = u * dw - w * du
     lowest = aside * aside / a
     inner = shape[2]
-    path = over_level(1.0, lowest, a, middle, t0, t1) - over_level(inner, lowest, a, middle, t0, t1)
+
+    def between(from_t: NDArray, to_t: NDArray) -> FloatArray:
+        whole = over_level(1.0, lowest, a, middle, from_t, to_t)
+        return whole - over_level(inner, lowest, a, middle, from_t, to_t)
+
+    if dry == SETTLED:
+        path = between(t0, t1)
+    else:
+        half_chord = np.sqrt(np.maximum(1.0 - lowest, 0.0) / a)
+        x0, x1 = (np.clip(t, middle - half_chord, middle + half_chord) for t in (t0, t1))
+        cuts = x0 + (x1 - x0) * (np.arange(PARTS + 1) / PARTS).reshape(-1, *[1] * x0.ndim)
+        path = np.zeros_like(x0)
+        for first, last in zip(cuts[:-1], cuts[1:], strict=True):
+            fall = ceiling - (position[1] + ray[..., 1] * 0.5 * (first + last))
+            path += extinction_arrived(fall, dry, rain_rate) * between(first, last)
     length = np.sqrt((ray * ray).sum(axis=-1))
     return np.where(t1 > t0, path / (1.0 - inner) * length, 0.0)
 
@@ -115,6 +135,8 @@ def rain_distance(
     ceiling: float,
     shown: float,
     extinction: float,
+    dry: Dry = SETTLED,
+    rain_rate: float = 0.0,
 ) -> FloatArray:
     """Distance in m at which one sees the rain of a ray, for the fog before it; as `rain_path`.
 
@@ -122,7 +144,8 @@ def rain_distance(
     of the way deep: the middle where it is thin, one optical depth where it is thick.
     """
     t0, t1 = rain_span(position, ray, end, ceiling, shown)
-    lost = extinction * rain_path(position, ray, end, axis, shape, ceiling, shown)
+    path = rain_path(position, ray, end, axis, shape, ceiling, shown, dry, rain_rate)
+    lost = extinction * path
     c, s = axis[2], axis[3]
     ox, oz = position[0] - axis[0], position[2] - axis[1]
     u, w = (ox * c - oz * s) / shape[0], (ox * s + oz * c) / shape[1]

@@ -1,6 +1,6 @@
 // Rain gauges: what a container's drops say of the rain through their planes. place = the opening's
 // middle and the radius of the catch, shape = the opening's own radius, the share of the area's rain
-// that falls there, 0, 0. Needs the block RainDraw of the container.
+// that falls there, the mean water of its drops over that of the area's, 0. Needs the block RainDraw of the container.
 #include "container.glsl"
 #include <block:RainDraw>
 #include <block:Gauge>

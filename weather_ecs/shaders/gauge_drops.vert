@@ -26,9 +26,11 @@ void main()
     if (dot(away, away) > gauge.w * gauge.w || !gauge_watched(foot) || !gauge_open(foot)) return;
     float d;
     float weight = drop_load_at(in_position, in_birth.z, gl_VertexID, d);
-    float number = weight * -v.y / GAUGE_SLAB * gauge_shape[gl_InstanceID].y;  // real drops a second
     float diameter = drop_diameter(in_birth.w, drop_law);
+    weight *= drop_arrived(in_position.y, drop_speed(diameter), 0.0);
+    vec4 shape = gauge_shape[gl_InstanceID];
+    float number = weight * -v.y / GAUGE_SLAB * shape.y;  // real drops a second
     float own = 0.5235988 * diameter * diameter * diameter;  // mm3
-    vs_sum = vec4(number * gauge_water * 3600e-6, 0.0, 0.0, number * own * 3600e-6);
+    vs_sum = vec4(number * gauge_water * shape.z * 3600e-6, 0.0, 0.0, number * own * 3600e-6);
     gl_Position = gauge_texel(gl_InstanceID);
 }

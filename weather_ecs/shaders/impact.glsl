@@ -61,6 +61,7 @@ bool read_impact(out Impact i)
     i.age = max(i.position.y - in_position.y, 0.0) / max(i.speed, 0.1);
     float d;
     i.weight = drop_weight(i.position, in_birth.z, gl_VertexID, d);
+    i.weight *= drop_arrived(i.position.y, i.speed, i.age);
     i.normal = surface_normal(shelter_place(i.position).xy);
     return i.weight > 0.0;
 }

@@ -24,11 +24,11 @@ void main()
     drops[k + 5u] = v.z;
     vec3 hit = vec3(v.x, v.y - LANDED, v.z);
     vec4 birth = births[id];
-    float d;
-    float weight = drop_weight(hit, birth.z, int(id), d);
-    if (weight <= 0.0) return;
     float diameter = drop_diameter(birth.w, rain_law);
     float speed = drop_speed(diameter);
     float age = max(hit.y - p.y, 0.0) / max(speed, 0.1);
+    float d;
+    float weight = drop_weight(hit, birth.z, int(id), d) * drop_arrived(hit.y, speed, age);
+    if (weight <= 0.0) return;
     append_impact(hit, rain_time - age, normal, diameter, speed, weight, birth.w);
 }

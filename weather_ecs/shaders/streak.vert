@@ -39,6 +39,7 @@ void main()
     weight *= clamp((1.0 - rise) * 8.0, 0.0, 1.0) * step(p.y, area_shape.w);
 
     float diameter = drop_diameter(in_birth.w, drop_law) * 1e-3;
+    weight *= drop_arrived(p.y, drop_speed(diameter * 1e3), 0.0);
     float width = diameter * (1.0 + (drop_look.x - 1.0) * d * d) * drop_look.y * drop_look.z;
     path *= drop_look.y;  // far drops are drawn larger in all directions
     tail = view_projection * vec4(p - path, 1.0);

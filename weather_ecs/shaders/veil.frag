@@ -4,6 +4,7 @@
 #include <block:RainView>
 #include <block:Veil>
 #include "fog.glsl"
+#include "rain_front.glsl"
 
 uniform sampler2D scene_depth;
 
@@ -18,6 +19,26 @@ float over_level(float h2, float x0, float x1)
     x0 = clamp(x0, -half_chord, half_chord);
     x1 = clamp(x1, -half_chord, half_chord);
     return (x1 - x0) * (h2 - (x0 * x0 + x0 * x1 + x1 * x1) * (1.0 / 3.0));
+}
+
+// The same integral where rain begins or ends, in parts: in each the share that has come down is that
+// at its middle. y: height in m of the ray where x = 0.
+const int PARTS = 6;
+
+float changing_path(float outer, float inner, float x0, float x1, float y, float rise)
+{
+    float half_chord = sqrt(outer);
+    x0 = clamp(x0, -half_chord, half_chord);
+    x1 = clamp(x1, -half_chord, half_chord);
+    float path = 0.0;
+    for (int i = 0; i < PARTS; ++i) {
+        float a = mix(x0, x1, float(i) / float(PARTS));
+        float b = mix(x0, x1, float(i + 1) / float(PARTS));
+        float fall = veil_span.y - (y + rise * 0.5 * (a + b));
+        float share = extinction_arrived(fall, veil_dry, veil_load.z);
+        path += share * (over_level(outer, a, b) - over_level(inner, a, b));
+    }
+    return path;
 }
 
 void main()
@@ -55,7 +76,9 @@ void main()
     float inner = max((veil_shape.z - lowest) * over_a, 0.0);
     t0 -= middle;
     t1 -= middle;
-    float path = over_level(outer, t0, t1) - over_level(inner, t0, t1);
+    float path;
+    if (veil_dry == SETTLED) path = over_level(outer, t0, t1) - over_level(inner, t0, t1);
+    else path = changing_path(outer, inner, t0, t1, camera_position.y + ray.y * middle, ray.y);
     float per_t = sqrt(length2);
     path *= per_t / (over_a * (1.0 - veil_shape.z));
     float optical = veil_load.x * path;

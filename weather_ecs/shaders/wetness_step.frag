@@ -6,6 +6,7 @@
 #include "wetness_law.glsl"
 #include "snow_cover.glsl"
 #include "rain_area.glsl"
+#include "rain_front.glsl"
 #include "shelter.glsl"  // shelter_map is the layer of what does not move
 #include <block:WetStep>
 
@@ -92,8 +93,12 @@ void main()
     // Rain that reaches it since, on the slope's own square metre.
     float rate = 0.0;
     for (int i = 0; i < wet_areas; ++i)
-        if (y < wet_area_shape[i].w)
-            rate += wet_area_rate[i].x * area_factor(p.xz, wet_area_axis[i], wet_area_shape[i]);
+        if (y < wet_area_shape[i].w) {
+            float here = area_factor(p.xz, wet_area_axis[i], wet_area_shape[i]);
+            if (here > 0.0 && wet_area_dry[i] != SETTLED)
+                here *= water_arrived(wet_area_shape[i].w - y, wet_area_dry[i], wet_area_rate[i].y);
+            rate += wet_area_rate[i].x * here;
+        }
     vec4 tops = vec4(cover_at(at), cover_at(at + ivec2(1, 0)), cover_at(at + ivec2(0, 1)),
                      cover_at(at + ivec2(1)));
     vec4 open = step(heights - y, vec4(SAME)) * step(tops - y, max(heights - y, 0.0) + COVERED);

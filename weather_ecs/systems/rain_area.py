@@ -50,7 +50,7 @@ def area_rows(found: list[tuple[int, RainArea]], fronts: RainFronts) -> NDArray:
 def dry_spells(
     found: list[tuple[int, RainArea]], fronts: RainFronts, remainder: float
 ) -> dict[int, Dry]:
-    """By uid what `physics.front` has to know of the areas whose rain has begun or ended of late."""
+    """By uid the spells of `physics.front`, of areas whose rain has begun or ended of late."""
     spells = {uid: fronts.dry(uid, area, remainder) for uid, area in found}
     return {uid: dry for uid, dry in spells.items() if dry != SETTLED}
 

@@ -134,7 +134,7 @@ class RainFronts:
             uid = _next_uid(uid, made._fronts)
             if uid not in made._rates:
                 raise InvalidValueError("fronts.uid", uid, "an area with a rate")
-            found = [_spell(*pair, made.steps) for pair in _pairs("fronts.spells", spells, 2)]
+            found = [_spell(pair, made.steps) for pair in _pairs("fronts.spells", spells, 2)]
             front = Front(_rate(rate, least=math.ulp(0.0)), tuple(found))
             _check_order(front.spells, raining=made._rates[uid] > 0.0)
             made._fronts[uid] = front
@@ -173,11 +173,11 @@ def _rate(value: Any, least: float) -> float:
     return value
 
 
-def _spell(begun: Any, ended: Any, steps: int) -> Spell:
-    for value in (begun, ended):
+def _spell(pair: list[Any], steps: int) -> Spell:
+    for value in pair:
         if value is not None:
             _whole("fronts.spells", value, steps)
-    return begun, ended
+    return pair[0], pair[1]
 
 
 def _check_order(spells: tuple[Spell, ...], raining: bool) -> None:

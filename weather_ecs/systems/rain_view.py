@@ -21,6 +21,7 @@ from weather_ecs.physics.container import (
     births,
     place,
 )
+from weather_ecs.physics.front import NO_FRONTS, SETTLED, steepness, water_arrived
 from weather_ecs.physics.rain_step import axis_of, shape_of
 from weather_ecs.systems.drop_shares import importances
 from weather_ecs.systems.falls import Fall, falls, shown_distance, snow_shown_distance
@@ -74,6 +75,7 @@ class RainView:
         self._observed: dict[int, _Observed] = {}
         self._births: dict[tuple[int, int], np.ndarray] = {}
         self._floor = SceneFloor()
+        self._fronts = NO_FRONTS
 
     def forget(self, key: int) -> None:
         """Drop what is remembered of an observer."""
@@ -81,6 +83,7 @@ class RainView:
 
     def view(self, frame: FrameData, camera: Camera, key: int, settings: Settings) -> ViewData:
         """The frame as `camera` sees it."""
+        self._fronts = frame.fronts
         seen = self._observed.get(key)
         if seen is None or frame.time < seen.time:
             seen = _Observed(frame.time, camera.position)
@@ -170,6 +173,12 @@ class RainView:
     ) -> list[ContainerData]:
         forward, lateral = container.reach
         load = fall.density * container.height * math.pi * forward * lateral
+        dry = self._fronts.get(key, SETTLED)
+        if fall.kind == SNOW and dry != SETTLED:
+            # Flakes come and go together, with the water that is down.
+            way = float(row["ceiling"]) - (container.bottom + 0.3 * container.height)
+            load *= float(water_arrived(way, dry, float(row["rain_rate"])))
+            dry = SETTLED
         load /= 2.0 * (1.0 - 0.5 * COUNT_FADE)
         h = float(row["heading"])
         radii = row["radii"].tolist()
@@ -186,6 +195,7 @@ class RainView:
                 shape=shape_of(container),
                 area_axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
                 area_shape=(*radii, min(float(row["soft_edge"]), radii[1]), float(row["ceiling"])),
+                dry=dry,
                 law=fall.law,
                 load=load / part,
                 count=part,
@@ -250,6 +260,8 @@ class RainView:
                     axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
                     shape=(a, b, min((1.0 - soft / b) ** 2, 0.9999)),
                     span=(min(container.bottom, seen.position[1]) - 300.0, ceiling),
+                    dry=self._fronts.get(key, SETTLED),
+                    slope=steepness(rate),
                     extinction=lost,
                     shown=shown,
                     snow=snow,
