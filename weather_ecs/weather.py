@@ -20,6 +20,7 @@ from weather_ecs.frame import FrameData
 from weather_ecs.observer_keys import ObserverKeys
 from weather_ecs.physics.camera import Camera, camera_from
 from weather_ecs.physics.footprint import SlopeFollower, fall_slope, fall_speed_over, landing_wind
+from weather_ecs.physics.rain_field import RainField
 from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, settings_for
 from weather_ecs.sampling import Sample, SampleField
 from weather_ecs.stats import Stats
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
 
     from weather_ecs.gpu.renderer import Renderer
     from weather_ecs.gpu.ripple_map import RippleMap
+    from weather_ecs.gpu.weather_air import WeatherAir
     from weather_ecs.gpu.wetness_map import WetnessMap
 
 BACKENDS = ("auto", "compute", "feedback")
@@ -259,7 +261,28 @@ class Weather:
         if not isinstance(thing, Occluder):
             raise InvalidValueError("thing", thing, "an Occluder component")
         field, frame = self._sample_field(), self._frame()
-        return self._things.depth(thing, field, frame.air.wet_bulb, frame.time)
+        return self._things.depth(thing, field, frame)
+
+    def air(self, *, observer: Observer | None = None, position: Any = None) -> WeatherAir:
+        """Fog, light and wind for a game's own shaders, now: see `weather.glsl`.
+
+        To be asked for once a frame, before the scene is drawn. The rain and snow in it are those
+        at `position`, an (x, y, z) in metres; without one, where the observer is, or where the last
+        draw was. Raises ContextError without OpenGL.
+        """
+        self._check_open()
+        if self._window is None and self._context is None:
+            raise ContextError("this weather was made with neither window nor context")
+        if position is not None:
+            x, y, z = _check_position("position", position)
+        elif observer is not None:
+            x, y, z = observer.position
+        else:
+            x, y, z = self._observer or self._first_observer()
+        frame = self._frame()
+        rate = RainField(frame.areas, frame.fronts).rate(x, y, z) if len(frame.areas) else 0.0
+        with _current(self._window):
+            return self._ready_renderer().air(self._keys.key(observer), frame, y, rate)
 
     def _draw(self, camera: Camera, observer: Observer | None, started: float) -> None:
         frame = self._frame()

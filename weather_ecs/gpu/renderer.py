@@ -8,9 +8,10 @@ import moderngl
 import numpy as np
 
 from weather_ecs.errors import ContextError, InvalidValueError
-from weather_ecs.frame import GaugeReading, ViewData
+from weather_ecs.frame import FrameData, GaugeReading, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.cloud_pass import CloudPass, CloudSettings
+from weather_ecs.gpu.cloud_shadow import CloudShadow
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.depth import DepthCopy
 from weather_ecs.gpu.fog_pass import FogPass
@@ -28,6 +29,7 @@ from weather_ecs.gpu.splash_pass import SplashPass
 from weather_ecs.gpu.timer import GpuTimer, PrimitiveCounter
 from weather_ecs.gpu.veil_pass import VeilPass
 from weather_ecs.gpu.view_block import fill_view
+from weather_ecs.gpu.weather_air import WeatherAir
 from weather_ecs.gpu.wetness_map import WetnessMap
 from weather_ecs.gpu.wetness_pass import WetnessPass
 from weather_ecs.physics.footprint import fall_speed_over, landing_wind
@@ -74,6 +76,7 @@ class Renderer:
         self._guard = StateGuard(ctx, self._gl)
         self._made: list[Releasable] = []  # oldest first
         self._maps: dict[int, Heightmap] = {}
+        self._airs: dict[int, WeatherAir] = {}
         self._released = False
         try:
             # Making objects binds them; the host must not notice that either.
@@ -132,6 +135,24 @@ class Renderer:
             return known
         with self._guard:
             return self._wetness.map(key)
+
+    def air(self, key: int, frame: FrameData, y: float, rate: float) -> WeatherAir:
+        """The air round an observer at the height y, where it rains or snows at a rate (mm/h)."""
+        air = self._airs.get(key)
+        if air is None or air.stale(frame, y, rate):
+            with self._guard:
+                if air is None:
+                    air = self._airs[key] = WeatherAir(self._ctx)
+                air.fill(frame, y, rate)
+        return air
+
+    def cloud_shadow(self, key: int = 0) -> CloudShadow:
+        """The clouds' shadows around an observer, for a game's own shaders."""
+        known = self._clouds.shadows.known(key)
+        if known is not None:
+            return known
+        with self._guard:
+            return self._clouds.shadows.map(key)
 
     def take_readings(self) -> list[GaugeReading]:
         """What the rain gauges have counted, as far as it has come back since the last call."""
@@ -280,15 +301,16 @@ class Renderer:
 
     def forget(self, key: int) -> None:
         """Give back what belongs to an observer who is gone."""
-        heightmap = self._maps.pop(key, None)
+        heightmap, air = self._maps.pop(key, None), self._airs.pop(key, None)
         with self._guard:
             self._splash.forget(key)
             self._rain.forget(key)
             self._ripples.forget(key)
             self._clouds.forget(key)
             self._wetness.forget(key)
-            if heightmap is not None:
-                heightmap.release()
+            for thing in (heightmap, air):
+                if thing is not None:
+                    thing.release()
 
     def release(self) -> None:
         """Give back every OpenGL object, in reverse order; twice does no harm."""
@@ -296,8 +318,9 @@ class Renderer:
             return
         self._released = True
         with self._guard:
-            for thing in (*self._maps.values(), *reversed(self._made)):
+            for thing in (*self._airs.values(), *self._maps.values(), *reversed(self._made)):
                 thing.release()
         self._guard.release()
         self._maps.clear()
+        self._airs.clear()
         self._made.clear()

@@ -1,0 +1,102 @@
+"""`WeatherAir`: the weather's air, light and wind for a game's own shaders."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import moderngl
+
+from weather_ecs.frame import FrameData
+from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+from weather_ecs.physics.optics import CLEAR, CONTRAST, falling_extinction
+from weather_ecs.physics.phase import share_at, temperature_at
+
+# Spelled out once more in shaders/weather.glsl, which games paste into their own shaders.
+WEATHER_AIR = UniformBlock(
+    "WeatherAir",
+    ("weather_fog_color", "vec4"),
+    ("weather_fog_law", "vec4"),
+    ("weather_sun_direction", "vec4"),
+    ("weather_sun_color", "vec4"),
+    ("weather_zenith_color", "vec4"),
+    ("weather_horizon_color", "vec4"),
+    ("weather_ground_color", "vec4"),
+    ("weather_wind_now", "vec4"),
+    ("weather_wind_law", "vec4"),
+    ("weather_now", "vec4"),
+    ("weather_air", "vec4"),
+)
+
+
+class WeatherAir:
+    """The air round one observer as it was when the weather was last asked for it.
+
+    For programs whose shader includes `weather.glsl`. The same object for good.
+    """
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._block = BlockBuffer(ctx, WEATHER_AIR)
+        self._made_of: tuple[FrameData, float, float] | None = None
+        self._rain = self._snow = 0.0
+        self._frame = FrameData()
+
+    @property
+    def extinction(self) -> float:
+        """1/m, of the air and its fog: for scenery over which the weather draws rain and snow."""
+        return self._frame.fog.extinction
+
+    @property
+    def extinction_with_rain(self) -> float:
+        """1/m, with what falls at the observer."""
+        return self.extinction + falling_extinction(self._rain, self._snow)
+
+    @property
+    def visibility(self) -> float:
+        """m, through air, fog and what falls at the observer."""
+        return CONTRAST / self.extinction_with_rain
+
+    @property
+    def color(self) -> tuple[float, float, float]:
+        """Of the fog, linear RGB."""
+        return self._frame.fog.color
+
+    @property
+    def depth(self) -> float:
+        """m of fog overhead."""
+        return self._frame.fog.depth
+
+    def stale(self, frame: FrameData, y: float, rate: float) -> bool:
+        """Whether `fill` would change something."""
+        known = self._made_of
+        return known is None or known[0] is not frame or known[1:] != (y, rate)
+
+    def fill(self, frame: FrameData, y: float, rate: float) -> None:
+        """Take a frame over, with `rate` mm/h falling at an observer at the height `y`."""
+        self._made_of, self._frame = (frame, y, rate), frame
+        air, fog, sky, profile = frame.air, frame.fog, frame.sky, frame.profile
+        self._snow = rate * share_at(temperature_at(air.temperature, y), air.humidity)
+        self._rain = rate - self._snow
+        data = self._block.data
+        data["weather_fog_color"] = (*fog.color, fog.extinction)
+        thick = max(fog.extinction - CLEAR, 0.0)
+        data["weather_fog_law"] = (self.extinction_with_rain, fog.depth, thick, 0.0)
+        data["weather_sun_direction"] = (*sky.sun_direction, 0.0)
+        data["weather_sun_color"] = (*sky.sun_color, 0.0)
+        data["weather_zenith_color"] = (*sky.zenith_color, 0.0)
+        data["weather_horizon_color"] = (*sky.horizon_color, 0.0)
+        data["weather_ground_color"] = (*sky.ground_color, 0.0)
+        data["weather_wind_now"] = (*frame.wind, profile.turbulence)
+        data["weather_wind_law"] = (profile.reference, profile.exponent, profile.ground, 0.0)
+        data["weather_now"] = (frame.time, self._rain, self._snow, 0.0)
+        data["weather_air"] = (air.temperature, air.humidity, air.snow_share, 0.0)
+        self._block.upload()
+
+    def use(self, program: Any) -> None:
+        """Bind the block to the binding it has, and point the program's at it, if it has one."""
+        if "WeatherAir" in program:
+            program["WeatherAir"].binding = self._block.binding
+            self._block.bind()
+
+    def release(self) -> None:
+        """Give the buffer back; twice does no harm."""
+        self._block.release()
