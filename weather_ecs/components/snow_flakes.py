@@ -21,9 +21,10 @@ def _model(field: str, value: Any) -> str:
 class SnowFlakes(Component):
     """Looks of falling snow; whether it snows is the air's affair. The oldest entity's one counts.
 
-    `physical` flakes are crystals and clumps by the laws in docs/snow.md; `liu_tong` has the paper's:
-    50 mm give or take 10, falling at 1 m/s give or take 0.25, 0.2 and 0.25. The fields and their
-    defaults are those of `weather_ecs.frame.SnowLook`.
+    `settling` alone is more than looks: a game's minutes are short, so snow may collect faster.
+    `physical` flakes are crystals and clumps by the laws in docs/snow.md; `liu_tong` has the
+    paper's: 50 mm give or take 10, falling at 1 m/s give or take 0.25, 0.2 and 0.25. The fields and
+    their defaults are those of `weather_ecs.frame.SnowLook`.
     """
 
     model: str = "physical"  # or liu_tong
@@ -36,6 +37,7 @@ class SnowFlakes(Component):
     opacity: float = 0.9  # 0 to 1, greatest opacity of one flake
     aperture: float = 0.004  # m, 0 to 0.1, of the eye or lens that sees near flakes out of focus
     veil: float = 1.0  # 0 to 10, factor on the extinction of the snow beyond the container
+    settling: float = 1.0  # 0 to 100, factor on how fast snow that has fallen grows deep
 
     checks: ClassVar[dict[str, Check]] = {
         "model": _model,
@@ -48,4 +50,5 @@ class SnowFlakes(Component):
         "opacity": number(0.0, 1.0),
         "aperture": number(0.0, 0.1),
         "veil": number(0.0, 10.0),
+        "settling": number(0.0, 100.0),
     }
