@@ -7,14 +7,14 @@ from importlib import resources
 
 from weather_ecs.errors import InvalidValueError
 
-PUBLIC = ("ripple_sample.glsl", "weather.glsl", "wetness.glsl")
+PUBLIC = ("cloud_shadow.glsl", "ripple_sample.glsl", "weather.glsl", "wetness.glsl")
 
 
 @cache
 def glsl(name: str) -> str:
     """Text of one of the package's public includes, without `#version`, to be pasted in.
 
-    `ripple_sample.glsl`: see `Weather.ripples`; `weather.glsl`: see `Weather.air`; `wetness.glsl`:
+    `cloud_shadow.glsl`: see `Weather.cloud_shadow`; `ripple_sample.glsl`: see `Weather.ripples`; `weather.glsl`: see `Weather.air`; `wetness.glsl`:
     see `Weather.wetness`. Raises InvalidValueError for another name.
     """
     if name not in PUBLIC:

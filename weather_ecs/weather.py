@@ -36,6 +36,7 @@ from weather_ecs.systems.thing_snow import ThingSnow
 if TYPE_CHECKING:
     from types import TracebackType
 
+    from weather_ecs.gpu.cloud_shadow import CloudShadow
     from weather_ecs.gpu.renderer import Renderer
     from weather_ecs.gpu.ripple_map import RippleMap
     from weather_ecs.gpu.weather_air import WeatherAir
@@ -249,6 +250,18 @@ class Weather:
             raise ContextError("this weather was made with neither window nor context")
         with _current(self._window):
             return self._ready_renderer().wetness(self._keys.key(observer))
+
+    def cloud_shadow(self, *, observer: Observer | None = None) -> CloudShadow:
+        """The clouds' shadows on the ground, for a game's own shaders: see `cloud_shadow.glsl`.
+
+        The same object for good; what it binds is what the last draw left. Raises ContextError
+        without OpenGL.
+        """
+        self._check_open()
+        if self._window is None and self._context is None:
+            raise ContextError("this weather was made with neither window nor context")
+        with _current(self._window):
+            return self._ready_renderer().cloud_shadow(self._keys.key(observer))
 
     def snow_on(self, thing: Occluder) -> float:
         """Depth in m of the snow on something that moves, since it was first asked about.

@@ -16,6 +16,7 @@ from weather_ecs.gpu.cloud_images import image_array
 from weather_ecs.gpu.cloud_impostors import Impostors, Plan
 from weather_ecs.gpu.cloud_rays import CloudRays
 from weather_ecs.gpu.cloud_scene import CloudScene, haze_of, rows_of, scene_of, surround_of
+from weather_ecs.gpu.cloud_shadow_pass import CloudShadowPass
 from weather_ecs.gpu.cloud_store import CloudStore
 from weather_ecs.gpu.cloud_stream import CloudStream
 from weather_ecs.gpu.row_texture import RowTexture
@@ -61,6 +62,7 @@ class CloudPass:
         self._store: CloudStore | None = None  # made with the first clouds
         self._observers: dict[int, Impostors] = {}
         self.stats = {"clouds_drawn": 0, "impostors_refreshed": 0, "cloud_billboards": 0}
+        self.shadows = CloudShadowPass(ctx, shaders, UNITS)
         self.impostors_on = True  # False: billboards alone; for tests and comparisons
 
     def _make(self) -> CloudStore:
@@ -93,6 +95,7 @@ class CloudPass:
         """Whether there is anything to do; where the sky has emptied, the shapes go."""
         if len(view.frame.clouds):
             return True
+        self.shadows.clear(view.key)
         if self._store is not None and not view.frame.cloud_shapes:
             self._store.update((), 0.0)
         return False
@@ -108,6 +111,7 @@ class CloudPass:
         store.update(view.frame.cloud_shapes, dt)
         scene = self._scene = scene_of(view, store, height)
         light = surround_of(view)
+        self.shadows.update(view, scene, store, self._images)
         impostors = self._impostors(view.key, settings)
         impostors.follow(scene, _numbers(view, light), dt)
         plan = self._plan(scene, impostors, settings)
@@ -256,12 +260,14 @@ class CloudPass:
 
     def forget(self, observer: int) -> None:
         """Give back what belongs to an observer who is gone."""
+        self.shadows.forget(observer)
         gone = self._observers.pop(observer, None)
         if gone is not None:
             gone.release()
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
+        self.shadows.release()
         for impostors in self._observers.values():
             impostors.release()
         self._observers.clear()

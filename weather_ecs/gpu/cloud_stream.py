@@ -38,22 +38,31 @@ class CloudStream:
         begins = np.zeros(len(which) + 1, np.intp)
         if not len(which):
             return begins
+        np.cumsum([len(order) for order in orders], out=begins[1:])
+        self._write(orders)
+        return begins
+
+    def fill_unsorted(self, scene: CloudScene, store: CloudStore, which: NDArray[np.intp]) -> int:
+        """Put in the clouds `which` in any order of their billboards; how many these are."""
+        shapes = [store.shapes[index] for index in scene.shapes[which].tolist()]
+        orders = [np.arange(s.first, s.first + len(s.position), dtype=np.uint32) for s in shapes]
+        return self._write(orders) if orders else 0
+
+    def _write(self, orders: list[NDArray[np.uint32]]) -> int:
         counts = [len(order) for order in orders]
-        np.cumsum(counts, out=begins[1:])
-        total = int(begins[-1])
+        total = sum(counts)
         rows = -(-total // WIDTH)
-        if not rows:
-            return begins
         if rows > self._height:
             while self._height < rows:
                 self._height *= 2
             self.texture.release()
             self.texture = self._make()
-        pairs = np.zeros((rows * WIDTH, 2), np.uint32)
-        pairs[:total, 0] = np.concatenate(orders)
-        pairs[:total, 1] = np.repeat(np.arange(len(which), dtype=np.uint32), counts)
-        self.texture.write(pairs.tobytes(), viewport=(0, 0, WIDTH, rows))
-        return begins
+        if rows:
+            pairs = np.zeros((rows * WIDTH, 2), np.uint32)
+            pairs[:total, 0] = np.concatenate(orders)
+            pairs[:total, 1] = np.repeat(np.arange(len(orders), dtype=np.uint32), counts)
+            self.texture.write(pairs.tobytes(), viewport=(0, 0, WIDTH, rows))
+        return total
 
     def _order(self, scene: CloudScene, store: CloudStore, index: int) -> NDArray[np.uint32]:
         cloud = scene.clouds[index]
