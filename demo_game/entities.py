@@ -34,6 +34,11 @@ SHOWER_DISTANCE = 420.0  # m that its course keeps from the place, to the left o
 SHOWER_COURSE = 600.0  # m before and behind there, then it begins anew
 SHOWER_BEFORE = -250.0  # m along its course, where it is when the game begins
 POND_RIM = 1.1  # of its radii, as far as its wobbling shore reaches
+# Open land on a gusty day; the ground of the place is about 0 m.
+BREEZE: dict[str, Any] = {
+    "gustiness": 0.5, "interval": 16.0, "veer": 0.22, "veer_period": 70.0,
+    "exponent": 1.0 / 7.0, "turbulence": 0.18,
+}  # fmt: skip
 PLACE_MIDDLE = (0.0, -40.0)  # (x, z), m
 
 
@@ -52,7 +57,7 @@ class Entities:
             heading=mood.wind_heading,
             drift=1.0,
         )
-        self._wind, self._sun = Wind(), Sun()
+        self._wind, self._sun = Wind(**BREEZE), Sun()
         looks = RainContainer(), SplashEmitter()
         for component in (self.area, self.shower, *looks, self._wind, self._sun):
             esper.create_entity(component)

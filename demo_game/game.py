@@ -14,7 +14,7 @@ from demo_game.collision import Colliders
 from demo_game.compass import compass
 from demo_game.entities import Entities, direction
 from demo_game.letter import Letter, State
-from demo_game.mood import TURN_STEP, WIND_STEP, MoodChanger, preset_mood
+from demo_game.mood import TURN_STEP, WIND_STEP, Mood, MoodChanger, preset_mood
 from demo_game.place import Place
 from demo_game.player import Intent, Player
 from demo_game.render import Environment, SceneRenderer
@@ -223,12 +223,19 @@ class Game:
     def _light(self) -> Any:
         return self.sky.light(self._overcast())
 
+    def _wind(self, mood: Mood) -> tuple[float, float, float]:
+        """What the scenery sways in, m/s at 10 m; on a tour the same whatever the weather."""
+        if self.tour is None:
+            x, _, z = self.pose.eye
+            return self.weather.sample((x, 10.0, z)).wind
+        x, z = direction(mood.wind_heading)
+        return (mood.wind_speed * x, 0.0, mood.wind_speed * z)
+
     def _environment(self) -> Environment:
         light, overcast = self._light(), self._overcast()
         mood = self.mood.current
         if self.tour is not None:
             mood = preset_mood(TOUR_SKY, WIND_HEADING)
-        x, z = direction(mood.wind_heading)
         return Environment(
             sun_direction=light.sun_direction,
             sun_color=light.sun_color,
@@ -243,7 +250,7 @@ class Game:
                 (area.center, area.radii, area.heading, rate, area.ceiling)
                 for area, rate in self._entities.rates(mood)
             ],
-            wind=(mood.wind_speed * x, 0.0, mood.wind_speed * z),
+            wind=self._wind(mood),
             ripples=self.weather.ripples(self._entities.pond),
             water=self.weather.wetness() if self.tour is None else None,
             lamps=light.lamps,

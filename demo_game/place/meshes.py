@@ -8,7 +8,18 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from . import bake, cabin, cabin_porch, cabin_room, cabin_solid, figure, layout, props, windmill
+from . import (
+    bake,
+    cabin,
+    cabin_porch,
+    cabin_room,
+    cabin_solid,
+    figure,
+    flag,
+    layout,
+    props,
+    windmill,
+)
 from .cabin_solid import Block
 from .mesh import Builder, Mesh, merge, placed, yaw_matrix
 from .rocks import rock
@@ -68,6 +79,8 @@ def open_meshes(
     props.woodpile(yard, x, height(x, z), z, 3.0)
     x, z = layout.BENCH
     props.bench(yard, x, height(x, z), z, layout.BENCH_FACING)
+    x, z = layout.FLAG
+    flag.pole(yard, x, height(x, z), z)
     yield "yard", yard.build()
     stones = []
     for k, (x, y, z, size, turn) in enumerate(rocks):

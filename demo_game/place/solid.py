@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from demo_game.collision import Box, Post
 
-from . import layout, windmill
+from . import flag, layout, windmill
 from .cabin_solid import Block
 from .layout import BIRCH, BUSH, CONIFER
 from .scatter import VARIANTS, Trees
@@ -56,7 +56,7 @@ def fence_boxes(terrain: Terrain, fences: list[list[list[float]]]) -> list[Box]:
 def single_posts(
     terrain: Terrain, rocks: list[tuple[float, float, float, float, float]]
 ) -> list[Post]:
-    """Rocks, lamp posts, mailbox, the windmill's tower."""
+    """Rocks, lamp posts, mailbox, flag pole, the windmill's tower."""
     found = [Post((x, z), 0.40 * size, y - SUNK, y + 0.30 * size) for x, y, z, size, _ in rocks]
 
     def put(x: float, z: float, radius: float, tall: float) -> None:
@@ -66,6 +66,7 @@ def single_posts(
     for x, z in layout.LAMPS:
         put(x, z, 0.12, 3.6)
     put(*layout.MAILBOX, 0.16, 1.4)
+    put(*layout.FLAG, 0.08, flag.TALL)
     put(*layout.WINDMILL, windmill.radius_at(0.5), windmill.HEIGHT)
     return found
 

@@ -9,10 +9,10 @@ import moderngl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .breeze import PAST, Breeze
 from .environment import Environment
 
 AREAS = 4
-LONGEST_STEP = 1.0  # s, that clouds and leaves move at once
 CLOUD_SPEED = 2.0  # of the wind at the ground
 PHASE_PERIOD = 20.0 * math.pi  # the shaders' factors of the phase are tenths
 BINDING = 30  # the game's own; hosts hand out low ones, the weather takes the topmost
@@ -22,6 +22,7 @@ FRAME_DTYPE = np.dtype(
         ("camera", "f4", 4), ("sun_direction", "f4", 4), ("sun_color", "f4", 4),
         ("zenith_color", "f4", 4), ("horizon_color", "f4", 4), ("ground_color", "f4", 4),
         ("fog_color", "f4", 4), ("wind", "f4", 4), ("drift", "f4", 4),
+        ("gusts", "f4", (PAST // 4, 4)),
         ("area_shape", "f4", (AREAS, 4)), ("area_turn", "f4", (AREAS, 4)),
         ("area_cloud", "f4", (AREAS, 4)),
     ]
@@ -45,8 +46,7 @@ class FrameBlock:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.data = np.zeros(1, FRAME_DTYPE)
-        self._time: float | None = None
-        self._phase = 0.0  # rad, of the swaying; integrated, so that a change of wind is no jump
+        self._breeze = Breeze()
         self._drift = np.zeros(2)  # m, of the clouds
         self.buffer = ctx.buffer(reserve=FRAME_DTYPE.itemsize, dynamic=True)
 
@@ -74,12 +74,13 @@ class FrameBlock:
         row["zenith_color"] = (*env.zenith_color, env.overcast)
         row["horizon_color"] = (*env.horizon_color, env.fog_density)
         row["ground_color"] = (*env.ground_color, 0.0)
-        speed = math.hypot(env.wind[0], env.wind[2])
-        self._advance(time, speed, env)
-        row["drift"] = (*self._drift, 1.0 if env.water is not None else 0.0, 0.0)
-        way = (env.wind[0] / max(speed, 1e-6), env.wind[2] / max(speed, 1e-6))
-        sway = 0.05 + 0.030 * min(speed, 20.0)
-        row["wind"] = (*way, sway, self._phase)
+        breeze = self._breeze
+        passed = breeze.advance(time, env.wind)
+        self._drift += passed * CLOUD_SPEED * np.array([env.wind[0], env.wind[2]])
+        wets = 0.0 if env.water is None else 1.0
+        row["drift"] = (*self._drift, wets, breeze.wave)
+        row["wind"] = (*breeze.way, breeze.front, breeze.sway)
+        row["gusts"] = breeze.past().reshape(-1, 4)
         areas = [a for a in env.rain_areas if a[3] > 0.0][:AREAS]
         row["fog_color"] = (*env.fog_color, len(areas))
         for k, (center, (a, b), heading, rate, ceiling) in enumerate(areas):
@@ -90,12 +91,6 @@ class FrameBlock:
             base = min(ceiling, 0.55 * max(a, b))  # low enough to be in view with its rain
             thick = 0.80 * max(a, b)
             row["area_cloud"][k] = (base + thick, thick, 1.75, 0.25 + 0.72 * strength)
-
-    def _advance(self, time: float, speed: float, env: Environment) -> None:
-        passed = 0.0 if self._time is None else min(max(time - self._time, 0.0), LONGEST_STEP)
-        self._time = time
-        self._phase = (self._phase + passed * (1.1 + 0.06 * min(speed, 20.0))) % PHASE_PERIOD
-        self._drift += passed * CLOUD_SPEED * np.array([env.wind[0], env.wind[2]])
 
     def upload(self) -> None:
         """Send the block and bind it."""

@@ -12,6 +12,7 @@ from demo_game.place import Place, paint
 
 from . import geometry
 from .environment import Environment, Ripples
+from .flag import Flag
 from .frame_block import FrameBlock, as_matrix, unit
 from .ground import Ground
 from .ground_shadow import GroundShadow
@@ -43,6 +44,7 @@ class SceneRenderer:
         self._actors = Actors(ctx, self._block, place)
         self._trees = Trees(ctx, self._block, place)
         self._meadow = Meadow(ctx, self._block, place)
+        self._flag = Flag(ctx, self._block, place)
         self._water = Water(ctx, self._block, place)
         self._pools = LampPools(ctx, self._block, place)
         self._halos = Halos(ctx, self._block, place)
@@ -52,7 +54,7 @@ class SceneRenderer:
         self._detail.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         units = {"shadow_map": SHADOW_UNIT, "detail_map": DETAIL_UNIT, "leaf_map": LEAF_UNIT}
         solid = (self._statics.program, self._actors.program, self._trees.program,
-                 self._trees.solid, self._meadow.program)  # fmt: skip
+                 self._trees.solid, self._meadow.program, self._flag.program)  # fmt: skip
         for program in solid:
             set_uniforms(program, **units)
         self._lit = (*solid, *self._ground.programs)
@@ -140,6 +142,7 @@ class SceneRenderer:
         self._actors.draw(planes, camera)
         ctx.disable(moderngl.CULL_FACE)
         self._meadow.draw(planes, camera, quality)
+        self._flag.draw(planes, camera)
         self._trees.leaves.use(LEAF_UNIT)
         self._trees.draw(planes, camera, quality)
         ctx.enable(moderngl.CULL_FACE)
@@ -179,6 +182,7 @@ class SceneRenderer:
         if self._released:
             return
         self._released = True
-        release_all((self._halos, self._pools, self._water, self._meadow, self._trees))
-        release_all((self._actors, self._statics, self._ground_shadow, self._ground))
+        release_all((self._halos, self._pools, self._water, self._flag, self._meadow))
+        release_all((self._trees, self._actors, self._statics))
+        release_all((self._ground_shadow, self._ground))
         release_all((self._shadows, self._sky, self._detail, self._block))

@@ -1,6 +1,9 @@
 // Anything but the ground: static meshes, instanced trees (TREES), moving parts (PARTS).
 #include "frame.glsl"
 #include "light.glsl"
+#ifdef TREES
+#include "breeze.glsl"
+#endif
 
 in vec3 in_position;
 in vec4 in_normal;    // not unit, w: 127 times the sway
@@ -47,9 +50,12 @@ void main() {
     p += in_foot.xyz;
     float phase = wind.w + dot(in_foot.xz, vec2(0.37, 0.23)) + in_position.y * 2.0;
     float sway = in_normal.w / 127.0;
-    float bend = sway * sway * wind.z;
-    p.xz += wind.xy * (bend * (0.55 + 0.45 * sin(phase)));
-    p.xz += vec2(sin(phase * 2.7 + in_position.x * 9.0), cos(phase * 2.3)) * (0.02 * bend);
+    float blows = wind_at(in_foot.xz);
+    float bend = sway * sway * (0.05 + 0.024 * blows + 0.0026 * blows * blows);
+    float to_and_fro = sin(phase) * mix(0.45, 0.22, smoothstep(6.0, 16.0, blows));
+    p.xz += wind.xy * (bend * (0.55 + to_and_fro));
+    float flutter = (0.03 + 0.004 * blows) * sway * min(blows * 0.2, 1.0);
+    p.xz += vec2(sin(phase * 2.7 + in_position.x * 9.0), cos(phase * 2.3)) * flutter;
     albedo *= mix(1.0, in_turn.w, leaf);
     lamp = in_turn.z;
 #endif
