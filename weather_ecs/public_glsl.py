@@ -15,7 +15,9 @@ def glsl(name: str) -> str:
     """Text of one of the package's public includes, without `#version`, to be pasted in.
 
     `cloud_shadow.glsl`: see `Weather.cloud_shadow`; `ripple_sample.glsl`: see `Weather.ripples`;
-    `weather.glsl`: see `Weather.air`; `wetness.glsl`: see `Weather.wetness`. Raises InvalidValueError for another name.
+    `weather.glsl`: see `Weather.air`; `wetness.glsl`: see `Weather.wetness`.
+
+    Raises InvalidValueError for another name.
     """
     if name not in PUBLIC:
         raise InvalidValueError("name", name, ", ".join(PUBLIC))
