@@ -96,6 +96,7 @@ CASES = [
     (RippleSurface, "catches_rain", [False, True]),
     (SnowFlakes, "model", ["physical", "liu_tong"]),
     (SnowFlakes, "size", [0.05, 50]),
+    (SnowFlakes, "settling", [0, 100]),
     (SnowFlakes, "size_maximum", [1, 50]),
     (SnowFlakes, "exposure", [1e-4, 1]),
     (SnowFlakes, "flutter", [0, 2]),

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from tests.worlds import fresh_world
 from weather_ecs import Weather
-from weather_ecs.components import Air, Occluder, RainArea
+from weather_ecs.components import Air, Occluder, RainArea, SnowFlakes
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.ground_law import SnowLaw
 from weather_ecs.physics.snow_cover import (
@@ -199,3 +199,15 @@ def test_a_cart_takes_its_snow_along_drops_it_when_it_leans_and_gets_none_under_
         assert weather.snow_on(cart) < 1e-3 * lies
         with pytest.raises(InvalidValueError, match="thing"):
             weather.snow_on("cart")  # type: ignore[arg-type]
+
+
+@pytest.mark.usefixtures("world")
+def test_snow_may_collect_faster_than_in_nature():
+    esper.create_entity(Air(COLD, 0.9))
+    esper.create_entity(RainArea((0, 0), (60, 60), 10.0))
+    esper.create_entity(SnowFlakes(settling=8.0))
+    with Weather() as weather:
+        run(60.5)
+        here = weather.sample((0, 0, 0))
+        assert here.snow_depth == pytest.approx(8.0 * FALL * 60.5 / DENSITY, rel=0.01)
+        assert here.snow_rate == pytest.approx(10.0) and here.wetness == 0.0

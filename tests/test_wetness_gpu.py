@@ -27,7 +27,7 @@ from weather_ecs.components import (
     Wind,
 )
 from weather_ecs.errors import ContextError
-from weather_ecs.frame import AirData, FrameData, OccluderData, ViewData, WetnessData
+from weather_ecs.frame import AirData, FrameData, OccluderData, SnowLook, ViewData, WetnessData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
@@ -131,7 +131,8 @@ class Maps:
         rate = rate.reshape(place.size, place.size)
         air = frame.air
         melt = float(melt_rate(air.wet_bulb))
-        return found, wet_map.step(found, water, seconds, rate, air.snow_share, melt)
+        collects = air.snow_share * frame.flakes.settling
+        return found, wet_map.step(found, water, seconds, rate, air.snow_share, melt, collects)
 
     def far(self, points: np.ndarray) -> np.ndarray:
         texture = self.seen.far.texture
@@ -202,7 +203,9 @@ def test_the_map_is_what_its_oracle_says(
     moments = [(10.0, 0, wind), (10.1, 0, wind), (11.2, 0, wind), (11.3, 4.2, wind)]
     moments += [(11.4, 4.2, (-4.0, 0.0, 2.0)), (12.9, 4.2, (-4.0, 0.0, 2.0))]
     for k, (time, x, now) in enumerate(moments):
-        data = scene(time, GROUND, ROOF, box(2, cart, True), wind=now, air=air, fronts=fronts)
+        things = GROUND, ROOF, box(2, cart, True)
+        flakes = SnowLook(settling=3.0 if wind[0] else 1.0)
+        data = scene(time, *things, wind=now, air=air, fronts=fronts, flakes=flakes)
         # In the end all of it thaws.
         if k == len(moments) - 1 and air.snow_share == 1.0:
             data = replace(data, air=AirData(6.0, 0.8, 5.0, 0.0))

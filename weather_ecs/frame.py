@@ -87,6 +87,7 @@ class SnowLook:
     opacity: float = 0.9  # greatest opacity of one flake
     aperture: float = 0.004  # m, of the eye or lens that sees near flakes out of focus
     veil: float = 1.0  # factor on the veil's extinction, look only
+    settling: float = 1.0  # factor on how fast snow collects
 
 
 @dataclass(frozen=True, slots=True)

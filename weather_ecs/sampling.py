@@ -58,6 +58,7 @@ class SampleField:
         "_melts",
         "_profile",
         "_rain",
+        "_settling",
         "_shelter",
         "_snow",
         "_time",
@@ -75,6 +76,7 @@ class SampleField:
         self._air, self._fog = frame.air, frame.fog.extinction
         self._shelter, self._ground, self._time = shelter, ground, frame.time
         self._snow, self._melts = snow, frame.air.wet_bulb > 0.0
+        self._settling = frame.flakes.settling
         self._lights = [
             (*position, reach, luminance(color)) for position, color, reach in frame.lights.tolist()
         ]
@@ -118,7 +120,7 @@ class SampleField:
         if self._ground is not None and self._snow is not None and not sheltered:
             falls = rate * self._air.snow_share
             wetness = self._ground.at(x, y, z, rate - falls, self._time)
-            lying = self._snow.at(x, y, z, falls, self._time)
+            lying = self._snow.at(x, y, z, falls * self._settling, self._time)
             if lying > 0.0 and self._melts:
                 wetness = max(wetness, min(lying / SOAKED * FILM, FILM))
         return Sample(

@@ -59,7 +59,8 @@ class FarField:
         water = _field(view, wet, points, 1.0 - air.snow_share, _water_law)
         snow = np.zeros_like(water)
         if view.frame.snow_ground is not None:
-            snow = _field(view, view.frame.snow_ground, points, air.snow_share, SnowLaw)
+            collects = air.snow_share * view.frame.flakes.settling
+            snow = _field(view, view.frame.snow_ground, points, collects, SnowLaw)
         both = np.stack([water, snow], axis=-1)
         self.texture.write(both.astype(np.float32).tobytes())
         self._made = (wet.number, wet.ticks)
@@ -81,14 +82,14 @@ def _field(
     share: float,
     law: Callable[[float], GroundLaw],
 ) -> NDArray:
-    """mm at points (n, 2), now; `share` of what falls is of this kind."""
+    """mm at points (n, 2), now; `share` of what falls is of this kind, or counts so often."""
     frame = view.frame
     levels = [
         (t.cell, t.places, t.water, float(ground.ticks - t.since), t.rows, law(t.melt))
         for t in ground.levels
     ]
     areas = on_level_ground(frame.areas, frame.fronts)
-    if share < 1.0:
+    if share != 1.0:
         areas = areas.copy()
         areas["rain_rate"] *= share
     melt = law(float(melt_rate(frame.air.wet_bulb)))

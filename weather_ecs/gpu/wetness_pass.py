@@ -41,7 +41,8 @@ STEP = UniformBlock(
     ("wet_old_fall", "vec4"),
     ("wet_shelter", "vec4"),  # the heightmap's low corner, m; 1 / its texel
     ("wet_heights", "vec4"),  # m, of the heightmap's top
-    ("wet_snow", "vec4"),  # share of what falls that is snow; mm/s of it that melt
+    # Share of what falls that is snow, mm/s of it that melt, times that share that collects.
+    ("wet_snow", "vec4"),
     ("wet_far_place", "vec4"),  # middle of the far field, m; 1 / its side
     ("wet_ages", "vec4", BANDS // 4),  # s since each band's last update
     ("wet_area_axis", "vec4", MAX_AREAS),
@@ -183,7 +184,8 @@ class WetnessPass:
         low = [c - footprint.half for c in footprint.center]
         data["wet_shelter"] = (*low, 1.0 / texel, 0.0)
         data["wet_heights"] = (footprint.top, 0.0, 0.0, 0.0)
-        data["wet_snow"] = (frame.air.snow_share, float(melt_rate(frame.air.wet_bulb)), 0.0, 0.0)
+        share, melt = frame.air.snow_share, float(melt_rate(frame.air.wet_bulb))
+        data["wet_snow"] = (share, melt, share * frame.flakes.settling, 0.0)
         data["wet_far_place"] = (*seen.far.middle, 0.5 / HALF, 0.0)
         block["wet_ages"].reshape(-1)[:] = np.maximum(frame.time - seen.times, 0.0)
         data["wet_bands"] = place.rows

@@ -156,17 +156,20 @@ def step(
     rate: NDArray,
     snow_share: float = 0.0,
     melt: float = 0.0,
+    collects: float | None = None,
 ) -> NDArray[np.float64]:
     """(n, n, 2) mm of water and snow after those seconds; 0 where nothing is known.
 
-    rate: mm/h of water that falls, of which `snow_share` is snow; melt: mm/s of snow.
+    rate: mm/h of water that falls, of which `snow_share` is snow; melt: mm/s of snow; collects:
+    times the rate that collects as snow, if it is another share.
     """
+    gathered = snow_share if collects is None else collects
     falls = rate * found.exposed * MM_PER_S * found.facing
     result = np.zeros_like(before)
     for age in np.unique(seconds):
         now = found.known & (seconds == age)
         span = math.fabs(float(age))
-        snow, fresh = before[now][:, 1], falls[now] * snow_share * found.stays[now]
+        snow, fresh = before[now][:, 1], falls[now] * gathered * found.stays[now]
         result[now, 1] = left = collect(snow, fresh, melt, span)
         melted = (snow + fresh * span - left) / span if span > 0.0 else np.zeros_like(snow)
         inflow = falls[now] * (1.0 - snow_share) * found.gathers[now] + np.maximum(melted, 0.0)

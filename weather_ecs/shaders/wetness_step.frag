@@ -118,9 +118,9 @@ void main()
     float stays = snow_stays(up);
     if (fresh) w.y *= stays;
     float falls = rate / 3600.0 * facing;
-    water.b = collect(w.y, falls * wet_snow.x * stays, wet_snow.y, seconds);
+    water.b = collect(w.y, falls * wet_snow.z * stays, wet_snow.y, seconds);
     float melted = 0.0;
-    if (seconds > 0.0) melted = (w.y + falls * wet_snow.x * stays * seconds - water.b) / seconds;
+    if (seconds > 0.0) melted = (w.y + falls * wet_snow.z * stays * seconds - water.b) / seconds;
     float inflow = falls * (1.0 - wet_snow.x) * gathers + max(melted, 0.0);
     water.r = settle(w.x, inflow, film_capacity(up) + deep, seconds);
 }

@@ -14,6 +14,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from weather_ecs.components import Occluder
+from weather_ecs.frame import FrameData
 from weather_ecs.physics.snow_cover import DENSITY, STEEPEST, melt_rate, stays
 from weather_ecs.physics.wetness import MM_PER_S
 
@@ -42,25 +43,27 @@ class ThingSnow:
     def __init__(self) -> None:
         self._things: WeakKeyDictionary[Occluder, tuple[float, float]] = WeakKeyDictionary()
 
-    def depth(self, thing: Occluder, field: Field, wet_bulb: float, time: float) -> float:
-        """Depth in m on a thing's top at the clock's `time`; a clock set back begins anew."""
+    def depth(self, thing: Occluder, field: Field, frame: FrameData) -> float:
+        """Depth in m on a thing's top in a frame; a clock set back begins anew."""
+        time = frame.time
         snow, then = self._things.get(thing, (0.0, time))
         seconds = time - then
         if seconds < 0.0:
             snow, seconds = 0.0, 0.0
         if seconds > 0.0:
-            snow = self._later(thing, snow, field, wet_bulb, seconds)
+            snow = self._later(thing, snow, field, frame, seconds)
         self._things[thing] = snow, time
         return snow / DENSITY
 
     def _later(
-        self, thing: Occluder, snow: float, field: Field, wet_bulb: float, seconds: float
+        self, thing: Occluder, snow: float, field: Field, frame: FrameData, seconds: float
     ) -> float:
         (x, y, z), up = _top(thing)
         falls = field.at(x, y + _ABOVE, z).snow_rate * MM_PER_S * float(stays(up))
+        falls *= frame.flakes.settling
         if up < STEEPEST:
             snow *= math.exp(-seconds / _SLIDING)
-        return max(snow + (falls - float(melt_rate(wet_bulb))) * seconds, 0.0)
+        return max(snow + (falls - float(melt_rate(frame.air.wet_bulb))) * seconds, 0.0)
 
 
 def _top(thing: Occluder) -> tuple[tuple[float, float, float], float]:

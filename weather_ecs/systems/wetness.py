@@ -7,8 +7,8 @@ from typing import Any
 import esper
 from numpy.typing import NDArray
 
-from weather_ecs.components import RainArea
-from weather_ecs.frame import AREA_DTYPE, empty
+from weather_ecs.components import RainArea, SnowFlakes
+from weather_ecs.frame import AREA_DTYPE, SnowLook, empty
 from weather_ecs.physics.front import on_level_ground
 from weather_ecs.physics.ground_law import SnowLaw
 from weather_ecs.physics.snow_cover import melt_rate
@@ -16,6 +16,13 @@ from weather_ecs.systems.air import air_data
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.rain_area import area_rows, dry_spells
 from weather_ecs.systems.state import WeatherState
+
+
+def settling(state: WeatherState) -> float:
+    """Times as fast as in nature that snow collects."""
+    for _, flakes in alive(SnowFlakes, state.uids):
+        return flakes.settling
+    return SnowLook().settling
 
 
 class WetnessSystem:
@@ -36,7 +43,8 @@ class WetnessSystem:
         rows, air = self._areas(state), air_data(state)
         state.wet_ground.tick(self._part("rain", rows, 1.0 - air.snow_share))
         melt = float(melt_rate(air.wet_bulb))
-        state.snow_ground.tick(self._part("snow", rows, air.snow_share), SnowLaw(melt))
+        collects = air.snow_share * settling(state) if air.snow_share > 0.0 else 0.0
+        state.snow_ground.tick(self._part("snow", rows, collects), SnowLaw(melt))
 
     def _part(self, name: str, rows: NDArray, share: float) -> NDArray:
         """The areas with a share of what falls; the same array where nothing has changed."""
@@ -44,7 +52,7 @@ class WetnessSystem:
         if known is not None and known[0] is rows and known[1] == share:
             return known[2]
         part = rows
-        if share < 1.0:
+        if share != 1.0:
             part = rows.copy()
             part["rain_rate"] *= share
             part.setflags(write=False)
