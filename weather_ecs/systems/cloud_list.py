@@ -56,6 +56,7 @@ class CloudList:
         self._changed = False  # shapes may have come out of use
         self._rows = NO_CLOUDS
         self._lists: list[Any] = []
+        self._entities: list[int] = []
         self._now: tuple[Any, ...] = ()
 
     def collect(
@@ -69,8 +70,11 @@ class CloudList:
         revisions = tuple([kind.revision() for kind in _KINDS])
         light = state.cloud_shapes.version
         now = (state.clock.time, state.clouds, light, revisions, sky, wind, profile)
-        if now != self._now or not all(map(is_, lists, self._lists)):
+        same = now == self._now and all(map(is_, lists, self._lists))
+        if not same or not all(map(esper.entity_exists, self._entities)):
             self._lists = lists
+            found = [pair[0] for pairs in lists for pair in pairs]
+            self._entities = [entity for entity in found if esper.entity_exists(entity)]
             self._rows, self._shapes = self._collect(state, sky, wind, profile)
             self._now = (*now[:2], state.cloud_shapes.version, *now[3:])
         return self._rows, self._shapes
@@ -123,7 +127,8 @@ class CloudList:
         models = state.models.of_skies(layer.skies, state.uids)
         before, rows = seen.view.shapes, seen.last()
         wanted = seen.view.build(record, layer, models, library)
-        if wanted and not seen.state:  # the layer is seen for the first time
+        if wanted and 2 * len(seen.view.rows) < len(record.array):
+            # The start, or other skies: clouds that come in one by one can wait, these not.
             for shape in wanted:
                 library.light_new(shape, sky.sun_direction)
             wanted = seen.view.build(record, layer, models, library)

@@ -55,7 +55,7 @@ def mix_at(skies: Sequence[Sky], state: float) -> Mix:
 def nearest_mix(skies: Sequence[Sky], state: float) -> Mix:
     """The sky nearest to a state, of two as near the clearer one: a layer begins with it."""
     order = sorted(skies, key=lambda sky: (abs(sky.state - state), sky.state))
-    return _mix(order[:1], [1.0])
+    return _mix(order[:1], [1.0]) if order else Mix(0, ())
 
 
 def _mix(skies: Sequence[Sky], weights: Sequence[float]) -> Mix:

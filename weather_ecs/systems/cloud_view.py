@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from weather_ecs.components import CloudModel, SkyLayer
 from weather_ecs.frame import CLOUD_DTYPE, WindProfile
 from weather_ecs.physics.chance import uniforms
-from weather_ecs.physics.wind import height_share
+from weather_ecs.physics.wind import LOWEST
 from weather_ecs.systems.cloud_array import WHOLE, CloudArray
 from weather_ecs.systems.cloud_layer import FORMING, TICK, LayerClouds
 from weather_ecs.systems.cloud_place import QUANTUM
@@ -17,8 +17,8 @@ from weather_ecs.systems.cloud_shapes import Shape, ShapeLibrary
 SMALLEST, LARGEST = 0.85, 1.2  # factors on a shape
 RIM = 0.06  # of the rectangle's shorter side: where clouds fade that come in or leave
 WIDEST_RIM = 1500.0  # m
-LEANING = 120.0  # s for which the wind's difference works on a cloud before its parts are renewed
-STEEPEST = 0.6  # m of lean per m
+LEANING = 50.0  # s for which the wind's difference works on a cloud before its parts are renewed
+STEEPEST = 0.5  # m of lean per m
 DEPTH = 1000.0  # m over which that difference is taken
 
 _NO_ROWS = np.zeros(0, np.int64)
@@ -64,9 +64,11 @@ def lean(record: LayerClouds, layer: SkyLayer, profile: WindProfile) -> tuple[fl
     """m of lean per m of height: the layer's own, and what the wind's growth with height makes."""
     x, z = layer.shear
     if profile.exponent and layer.drift:
+        # The law is for the lowest few hundred metres; above, it stands in for whatever makes the
+        # wind grow there.
+        base = max(layer.base - profile.ground, LOWEST)
         low, high = (
-            height_share(y - profile.ground, profile.reference, profile.exponent)
-            for y in (layer.base, layer.base + DEPTH)
+            (height / profile.reference) ** profile.exponent for height in (base, base + DEPTH)
         )
         pull = layer.drift * (high - low) / DEPTH * LEANING
         dx, dz = record.wind[0] * pull, record.wind[1] * pull
