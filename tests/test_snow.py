@@ -15,6 +15,7 @@ from weather_ecs.gpu import flake_texture
 from weather_ecs.gpu.flake_shapes import SIZE
 from weather_ecs.gpu.flake_texture import CLUMPS, LAYERS, NEEDLES, PLATES, STARS, WET, build
 from weather_ecs.physics.drops import drop_density, extinction, terminal_speed
+from weather_ecs.physics.footprint import fall_speed_of, fall_speed_over
 from weather_ecs.physics.optics import extinction_to_visibility
 from weather_ecs.physics.snow import (
     Habit,
@@ -94,6 +95,14 @@ def test_speeds_and_sizes_are_those_that_were_measured():
 def test_flakes_clump_near_freezing():
     assert clumped(0.7, 0.0) > 0.6 > 0.1 > clumped(0.7, -15.0)
     assert clumped([0.2, 4.0], -5.0).tolist() == [0.0, 1.0]
+
+
+def test_the_speed_that_maps_are_made_for():
+    rates = np.array([0.5, 2.5])
+    assert fall_speed_over(rates) == fall_speed_over(rates, 0.4) == fall_speed_of(2.5)
+    median = 4.0 * 3.67 / 1.6426  # mm, of the heavier snow
+    assert fall_speed_over(rates, 1.0) == pytest.approx(0.8 * median**0.16, rel=1e-3)
+    assert 0.7 < fall_speed_over(rates[:0], 1.0) < fall_speed_over(rates * 1e6, 1.0) < 1.3
 
 
 def test_wet_flakes_are_smaller_and_fall_faster():

@@ -397,7 +397,8 @@ class Weather:
         frame = self._frame()
         if self._field is None or frame is not self._field_frame:
             wind = landing_wind(frame.wind, frame.profile)
-            wanted = fall_slope(wind, fall_speed_over(frame.areas["rain_rate"]))
+            speed = fall_speed_over(frame.areas["rain_rate"], frame.air.snow_share)
+            wanted = fall_slope(wind, speed)
             slope = self._slope.follow(wanted)
             self._shelter.update(frame.occluders, slope, frame.time)
             state = self._state

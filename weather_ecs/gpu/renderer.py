@@ -228,7 +228,7 @@ class Renderer:
             heightmap = Heightmap(self._ctx, self._guard, self._meshes, size)
             self._maps[view.key] = heightmap
         wind, reach = landing_wind(view.frame.wind, view.frame.profile), view.frame.look.reach
-        speed = fall_speed_over(view.frame.areas["rain_rate"])
+        speed = fall_speed_over(view.frame.areas["rain_rate"], view.frame.air.snow_share)
         if heightmap.footprint is not None and not view.frame.areas["rain_rate"].any():
             # Nothing falls: the map stays as it was, for what is still wet.
             (x, z), speed = heightmap.footprint.slope, 1.0

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .snow import AGGREGATE, LARGEST_FLAKE, aggregate_speed
 from .wind import Profile, wind_at
 
 # The wind is rounded to this slope, so that its small changes do not call for a new capture.
@@ -132,6 +133,16 @@ def fall_speed_of(rain_rate: float) -> float:
     return 9.65 - 10.3 * math.exp(-0.6 * max(3.67 / slope, 0.5))
 
 
-def fall_speed_over(rain_rates: NDArray) -> float:
-    """Mean fall speed in m/s that maps are made for: that of the heaviest of several rains."""
-    return fall_speed_of(float(rain_rates.max())) if len(rain_rates) else fall_speed_of(0.0)
+def fall_speed_over(rain_rates: NDArray, snow_share: float = 0.0) -> float:
+    """Mean fall speed in m/s that maps are made for: that of the heaviest of several rains.
+
+    Of what is mostly snow, that of the snow.
+    """
+    rate = float(rain_rates.max()) if len(rain_rates) else 0.0
+    return snow_speed_of(rate) if snow_share > 0.5 else fall_speed_of(rate)
+
+
+def snow_speed_of(rate: float) -> float:
+    """The same of snow, `rate` mm/h of water: an aggregate of Gunn and Marshall's median volume."""
+    slope = 2.55 * min(max(rate, 0.1), 1e3) ** -0.48
+    return float(aggregate_speed(AGGREGATE * min(3.67 / slope, LARGEST_FLAKE)))

@@ -53,8 +53,7 @@ vec3 flake_velocity(uint id, float quantile, vec4 law)
     float clumped = flake_clumped(diameter);
     int habit = flake_habit(word, law);
     float fall = mix(habit == 2 ? 0.31 : 0.5, 0.8 * pow(4.0 * diameter, 0.16), clumped);
-    float drop = 9.65 - 10.3 * exp(-0.6 * diameter);
-    fall += (drop - fall) * law.z * law.z;
+    if (law.z > 0.0) fall += (9.65 - 10.3 * exp(-0.6 * diameter) - fall) * law.z * law.z;
     // Two swings of frequencies of their own, 1/2 to 1 1/2 a second: a way that sways and spirals.
     vec2 often = vec2(30.0) + vec2((word >> 8u) & 63u, (word >> 14u) & 63u);
     vec2 phase = vec2((word >> 20u) & 63u, word >> 26u) * (1.0 / 64.0);
