@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.frame import SplashLook, ViewData
+from weather_ecs.gpu.air_block import AIR_FLOW, fill_air, flow_of
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.heightmap import Footprint
 from weather_ecs.gpu.impact_list import IMPACT_DTYPE
@@ -92,7 +93,7 @@ class SplashCapture:
         self._looks = self._shaders.program(LOOKS)
         self._quads = self._shaders.program(QUADS)
         self._quads["shelter_map"] = SHELTER_UNIT
-        self._blocks = [BlockBuffer(ctx, block) for block in (RAIN_VIEW, SPLASH, SHELTER)]
+        self._blocks = [BlockBuffer(ctx, block) for block in (RAIN_VIEW, SPLASH, SHELTER, AIR_FLOW)]
         self._map = ctx.depth_texture((TEXELS, TEXELS))
         self._map.compare_func = ""
         self._map.filter = moderngl.NEAREST, moderngl.NEAREST
@@ -131,6 +132,7 @@ class SplashCapture:
     ) -> NDArray:  # fmt: skip
         fill_view(self._blocks[0], view, (0, 0, *PICTURE))
         fill_splash(self._blocks[1], view, look)
+        fill_air(self._blocks[3], flow_of(view))
         for block in self._blocks:
             block.upload()
             block.bind()

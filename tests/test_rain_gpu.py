@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from tests.views import look_from, perspective
-from weather_ecs.frame import AREA_DTYPE, DropLook, FrameData
+from weather_ecs.frame import AREA_DTYPE, DropLook, FrameData, WindProfile
+from weather_ecs.gpu.air_block import flow_of
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.heightmap import Footprint
 from weather_ecs.gpu.rain_blocks import SHELTER
@@ -57,12 +58,16 @@ def states(rain: RainPass) -> dict[int, np.ndarray]:
     return found
 
 
+EVEN = WindProfile()
+
+
 def walk(
     ctx: moderngl.Context,
     backend: str,
     frames: int,
     sheltered: bool = False,
     impact_capacity: int = 4096,
+    profile: WindProfile = EVEN,
 ) -> tuple[RainPass, ShaderLoader, list]:
     """A run into and out of two areas, turning; returns the views it made too."""
     shaders = ShaderLoader(ctx)
@@ -77,7 +82,9 @@ def walk(
         camera = camera_from(
             look_from((-70 + 40 * t, 1.7, 5 * math.sin(t)), 1.2 * math.sin(t)), perspective()
         )
-        frame = FrameData(time=t, areas=rows, wind=(6.0, 0.0, 2.0), look=DropLook())
+        frame = FrameData(
+            time=t, areas=rows, wind=(6.0, 0.0, 2.0), look=DropLook(), profile=profile
+        )
         view = view_of.view(frame, camera, 0, SETTINGS)
         rain.update(view, sheltered)
         views.append(view)
@@ -103,7 +110,7 @@ def oracle(views: list, shelter: ShelterMap | None = None) -> dict[int, np.ndarr
             seed = (7 * 0x9E3779B1 + c.word * 0x85EBCA6B + d["steps"]) & 0xFFFFFFFF
             step = rain_step.Step(
                 *before, *placing, (*view.frame.wind, view.dt), c.law, seed,
-                0 if d["placed"] is None else d["alive"],
+                0 if d["placed"] is None else d["alive"], flow_of(view),
             )  # fmt: skip
             p, v = rain_step.step(c.births[:count], d["p"][:count], d["v"][:count], step, shelter)
             d["p"][:count], d["v"][:count] = p, v
@@ -111,9 +118,15 @@ def oracle(views: list, shelter: ShelterMap | None = None) -> dict[int, np.ndarr
     return {k: np.hstack([d["p"][: d["alive"]], d["v"][: d["alive"]]]) for k, d in drops.items()}
 
 
+GUSTY = WindProfile(exponent=1 / 7, ground=-1.0, turbulence=1.5, scale=5.0)
+
+
 @pytest.mark.parametrize("backend", ["compute", "feedback"])
-def test_drops_are_where_the_oracle_has_them(ctx: moderngl.Context, backend: str) -> None:
-    rain, shaders, views = walk(ctx, backend, 90)
+@pytest.mark.parametrize("profile", [EVEN, GUSTY], ids=["even wind", "turbulent wind"])
+def test_drops_are_where_the_oracle_has_them(
+    ctx: moderngl.Context, backend: str, profile: WindProfile
+) -> None:
+    rain, shaders, views = walk(ctx, backend, 90, profile=profile)
     try:
         found, expected = states(rain), oracle(views)
         assert set(found) == set(expected)
@@ -122,10 +135,10 @@ def test_drops_are_where_the_oracle_has_them(ctx: moderngl.Context, backend: str
             assert got.shape == drops.shape
             assert np.isfinite(got).all()
             # A drop at the very rim may fall to either side of it by rounding, and is then
-            # elsewhere from there on: few do.
+            # elsewhere from there on: few do. Eddies bring neighbours apart, and so roundings too.
             away = np.abs(got - drops).max(axis=1)
-            assert np.mean(away > 1e-2) < 0.02, key
-            assert np.median(away) < 1e-3
+            assert np.mean(away > (0.1 if profile.turbulence else 1e-2)) < 0.02, key
+            assert np.median(away) < (5e-3 if profile.turbulence else 1e-3)
     finally:
         rain.release()
         shaders.release()

@@ -15,12 +15,14 @@ from hypothesis import strategies as st
 from tests.rain_frames import camera, frame, lights
 from tests.splash_capture import PICTURE, SplashCapture, impacts, law_of
 from tests.streak_capture import view_of
-from weather_ecs.frame import RippleData, SplashLook, ViewData
+from weather_ecs.frame import RippleData, SplashLook, ViewData, WindProfile
 from weather_ecs.gpu import splash_texture as texture
+from weather_ecs.gpu.air_block import flow_of
 from weather_ecs.gpu.view_block import encode
 from weather_ecs.physics import splash
 from weather_ecs.physics.drops import terminal_speed
 from weather_ecs.physics.streak import light_on
+from weather_ecs.physics.turbulence import eddies
 
 LOOK = SplashLook()
 NORTH = math.pi / 2  # the heading of -z
@@ -219,9 +221,11 @@ def test_looks_are_those_of_the_oracle(capture: SplashCapture):
     assert np.allclose(found.throw[sharp, 0], pace[sharp], rtol=2e-3)
 
 
-def test_droplets_fly_where_the_oracle_has_them(capture: SplashCapture):
+@pytest.mark.parametrize("turbulence", [0.0, 2.0])
+def test_droplets_fly_where_the_oracle_has_them(capture: SplashCapture, turbulence: float):
     look, age = replace(LOOK, droplets=3.0), 0.11
-    view = view_at(wind=(4.0, 0.0, -2.0))
+    air = WindProfile(ground=-2.0, turbulence=turbulence, scale=1.5)
+    view = view_at(wind=(4.0, 0.0, -2.0), profile=air)
     one = law_of(look, view)
     records = impacts(12, time=100.0 - age)
     records["position"][:, 0] = np.linspace(-1.0, 1.0, 12)
@@ -229,12 +233,22 @@ def test_droplets_fly_where_the_oracle_has_them(capture: SplashCapture):
     high = splash.stature(records["weight"].astype(float), records["seed"], one)
     normal, speed = records["normal"].astype(float), records["speed"].astype(float)
     ages = np.full(12, 100.0 - float(records["time"][0]))
+    # Where the eddies have come since the hit.
+    carried = records["position"] + np.asarray(view.frame.wind) * ages[:, None]
+    pull = np.asarray(one.acceleration) + look.drift / splash.RESPONSE * eddies(
+        carried, flow_of(view)
+    )
+    laws = [replace(one, acceleration=tuple(p)) for p in pull.tolist()]
     expected = []
     for k in range(splash.MOST):
         velocity, thrown = splash.launches(normal, speed, high, records["seed"], k, one)
-        flying = thrown & (ages < splash.landing(normal, velocity, one))
-        p = records["position"] + splash.way(velocity, ages, one)
-        v = velocity + np.asarray(one.acceleration) * ages[:, None]
+        each = [(normal[[i]], velocity[[i]], law) for i, law in enumerate(laws)]
+        landing = np.concatenate([splash.landing(*it) for it in each])
+        flying = thrown & (ages < landing)
+        p = records["position"] + np.concatenate(
+            [splash.way(v, ages[:1], law) for _, v, law in each]
+        )
+        v = velocity + pull * ages[:, None]
         ends = []
         for q in (p - v * view.frame.look.exposure * 0.35, p):
             clip = np.column_stack([q, np.ones(12)]) @ (view.projection @ view.view).T

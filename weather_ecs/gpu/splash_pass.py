@@ -15,7 +15,7 @@ from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.splash_list import SplashList
 from weather_ecs.gpu.splash_texture import splash_texture
 from weather_ecs.gpu.timer import PrimitiveCounter
-from weather_ecs.physics.splash import acceleration
+from weather_ecs.physics.splash import RESPONSE, acceleration
 
 MAX_WATERS = 8
 FRAMES_UNIT = 2
@@ -27,7 +27,7 @@ SPLASH = UniformBlock(
     ("splash_look", "vec4"),  # size, largest radius in m, duration in s, opacity
     ("splash_spray", "vec4"),  # share, droplets, their share of the speed, spread in rad
     ("splash_pull", "vec4"),  # m/s2, of the droplets; m, distance of detail
-    ("splash_grain", "vec4"),  # m, diameter of a droplet as it is drawn
+    ("splash_grain", "vec4"),  # m, diameter of a droplet as it is drawn; 1/s, pull of the air
     ("water_axis", "vec4", MAX_WATERS),  # centre x, centre z, cos heading, sin heading
     ("water_shape", "vec4", MAX_WATERS),  # half-sizes u and w, level, m; 1 for an ellipse
     ("water_count", "int"),
@@ -119,7 +119,7 @@ def fill_splash(block: BlockBuffer, view: ViewData, look: SplashLook) -> None:
     data["splash_spray"] = (look.share, look.droplets, look.droplet_speed, look.spread)
     detail = max(look.detail, 1e-3)
     data["splash_pull"] = (*acceleration(view.frame.wind, look.drift), detail)
-    data["splash_grain"] = (look.droplet_size * 1e-3, 0.0, 0.0, 0.0)
+    data["splash_grain"] = (look.droplet_size * 1e-3, look.drift / RESPONSE, 0.0, 0.0)
     waters = nearest_waters(view)
     for k, water in enumerate(waters):
         x, y, z = water.center

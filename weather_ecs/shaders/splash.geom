@@ -10,6 +10,7 @@ layout(triangle_strip, max_vertices = 23) out;
 #include "splash.glsl"
 #include "splash_quad.glsl"
 #include "shelter.glsl"
+#include "turbulence.glsl"
 
 in vec3 vs_throw[];
 
@@ -85,6 +86,8 @@ void droplets(float seed, vec3 n, vec3 first, vec3 second, vec4 color)
 {
     float age = vs_throw[0].y;
     vec3 pull = splash_pull.xyz;
+    // The eddies that were there at the hit have gone on with the wind since.
+    if (air_gain.w > 0.0) pull += splash_grain.y * eddies(vs_at[0] + air_wind.xyz * age);
     uint id = floatBitsToUint(seed);
     float number = floor(splash_spray.y + hash_unit(id ^ 0x27D4EB2Fu));
     float fall = dot(n, pull);
