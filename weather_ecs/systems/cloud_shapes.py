@@ -21,7 +21,7 @@ TURNS = 24  # headings that a shape can be lit for
 SPARE = 64  # shapes that are kept while no cloud stands with them
 AT_ONCE = 1500  # seeds up to which a new shape is lit all at once
 ANGLE = math.radians(2.0)
-PAIRS = 8192  # rays times boxes of a large cloud that one frame follows
+PAIRS = 4096  # rays times boxes of a large cloud that one frame follows
 
 Vector = tuple[float, float, float]
 
