@@ -27,6 +27,7 @@ class CloudScene:
     half: Floats  # (n, 3) of the box round the billboards, scaled
     middle: Floats  # (n, 3) of that box in the shape, unscaled
     base: Floats  # (n,) scaled, from the centre
+    thick: Floats  # (n,) 1/m, of way inside, over the light's penetration
     reach: Floats  # (n,) of the sphere that holds what is drawn
     away: Floats  # (n,)
     visible: NDArray[np.bool_]
@@ -65,6 +66,7 @@ def scene_of(view: ViewData, store: CloudStore, height: int) -> CloudScene:
     parallel = bool(view.projection[3, 3] == 1.0)
     return CloudScene(
         clouds, shapes, center, half, store.middle[shapes], store.base[shapes] * scale,
+        store.thick[shapes] / np.maximum(scale, 1e-9),
         reach, away, visible, order, pixels, parallel,
     )  # fmt: skip
 
@@ -96,6 +98,7 @@ def rows_of(
     rows[:, 2, :2] = clouds["shear"]
     rows[:, 2, 2], rows[:, 2, 3] = clouds["growth"], clouds["mode"]
     rows[:, 3, 0], rows[:, 3, 1], rows[:, 3, 2] = clouds["darkness"], clouds["flash"], fresh
+    rows[:, 3, 3] = scene.thick[which]
     rows[:, 4, :3], rows[:, 4, 3] = half_sizes(scene, which), scene.base[which]
     rows[:, 5] = haze
     return rows

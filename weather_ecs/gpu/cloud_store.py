@@ -97,7 +97,7 @@ class CloudStore:
         self.seeds = ItemTexture(ctx, 2)
         self.shapes: list[StoredShape] = []
         self.half = self.middle = np.zeros((0, 3))
-        self.base = self.reach = np.zeros(0)
+        self.base = self.reach = self.thick = np.zeros(0)
         self._known: dict[int, StoredShape] = {}
         self._tuple: tuple[CloudShapeData, ...] = ()
         self._fading: set[int] = set()
@@ -120,6 +120,7 @@ class CloudStore:
             self.middle = np.array([s.middle for s in stored]).reshape(-1, 3)
             self.base = np.array([s.base for s in stored])
             self.reach = np.array([s.reach for s in stored])
+            self.thick = np.array([1.0 / max(s.data.penetration, 1e-3) for s in stored])
         if len(self._known) > len(shapes):
             living = {data.key for data in shapes}
             for key in [key for key in self._known if key not in living]:

@@ -74,9 +74,9 @@ def surround(
     )
     towards = np.asarray(direction, np.float64)
     up = max(float(towards[1]), 0.0)
-    above = 0.62 * zenith + 0.24 * horizon
+    above = 0.74 * zenith + 0.16 * horizon
     # Ground lit by sun and sky, and the bright air between.
-    below = ground * (0.55 * sun * up + 0.35 * zenith) + 0.36 * horizon + 0.06 * zenith
+    below = ground * (0.55 * sun * up + 0.35 * zenith) + 0.20 * horizon + 0.18 * zenith
     plain = 0.45 * zenith + 0.15 * horizon + 0.15 * ground
     return Surround(towards, sun, above, below, plain)
 
@@ -89,6 +89,7 @@ class Body:
     base: float  # m, of its underside from its centre
     darkness: float = 0.0
     flash: float = 0.0
+    thick: float = 0.0  # 1/m, what a way through it adds to what is absorbed
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +101,7 @@ class Lit:
     rim: Array  # that shines through where the cloud is thin
     facing: Array  # 0 to 1: which of the first two the vertex itself shows
     relief: Array  # how much an image's own relief adds to that
+    soft: Array  # 0 to 1: how soft the image's outline is
 
 
 def full_light(
@@ -117,11 +119,12 @@ def full_light(
     silver, bases, ambience = look
     q = v / body.half_size
     whole, own = q / body.half_size, v - s
-    n = 0.60 * whole / np.maximum(_length(whole), 1e-9)
-    n = n + 0.30 * own / np.maximum(_length(own), 1e-3) - 0.45 * w
+    n = 0.42 * whole / np.maximum(_length(whole), 1e-9)
+    n = n + 0.50 * own / np.maximum(_length(own), 1e-3) - 0.36 * w
     n = n / np.maximum(_length(n), 1e-6)
     rise = np.clip((v[..., 1] - body.base) / (2.0 * body.half_size[1]), 0.0, 1.0)
     towards = n @ light.direction
+    a = np.clip(a - 0.6 * body.thick * (own @ light.direction), 0.0, 1.0)
     through = np.exp(-0.75 * a)
 
     up = 0.5 + 0.5 * n[..., 1]
@@ -137,15 +140,16 @@ def full_light(
     forward = 0.16 * (0.5 + 0.5 * ahead) ** 6 + 0.7 * np.maximum(ahead, 0.0) ** 24
     lit = (sun * (0.92 + 0.08 * towards)[..., None] + ambient) * dim
     shade = (sun * (0.22 + 0.06 * towards)[..., None] + 0.95 * ambient) * dim
-    facing = np.clip(0.62 + 0.50 * towards - 0.28 * a, 0.0, 1.0)
+    facing = np.clip(0.60 + 0.58 * towards - 0.28 * a, 0.0, 1.0)
 
     aside = q - w * (q * w).sum(-1, keepdims=True)
-    edge = smoothstep(0.45, 1.0, _length(aside)[..., 0])
-    rim = (silver * forward * (0.12 + 0.88 * edge) * (1.0 - 0.5 * a))[..., None] * light.sun
+    edge = smoothstep(0.50, 1.0, _length(aside)[..., 0])
+    rim = (silver * forward * (0.08 + 0.92 * edge) * (1.0 - 0.5 * a))[..., None] * light.sun
 
     inside = np.maximum(1.0 - 0.55 * (q * q).sum(-1), 0.12)[..., None]
     flash = body.flash * inside * np.array([0.86, 0.90, 1.0])
-    return Lit(lit + flash, shade + flash, rim, facing, 0.62 - 0.38 * np.asarray(a))
+    relief = (0.62 - 0.38 * a) * (0.45 + 0.55 * rise)
+    return Lit(lit + flash, shade + flash, rim, facing, relief, 0.75 * (1.0 - rise) ** 2)
 
 
 def _length(x: Array) -> Array:

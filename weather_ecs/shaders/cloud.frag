@@ -7,7 +7,7 @@ in vec3 vs_uv;
 in vec3 vs_lit;
 in vec3 vs_shade;
 in vec3 vs_rim;
-flat in vec2 vs_relief;
+flat in vec3 vs_relief;
 in vec4 vs_fade;
 flat in vec4 vs_haze;
 out vec4 color;
@@ -30,12 +30,12 @@ float clearance()
 void main()
 {
     vec4 texel = texture(cloud_images, vs_uv);
-    float alpha = texel.a * vs_fade.x * clamp(vs_fade.y, 0.0, 1.0);
+    float alpha = texel.a * (1.0 - vs_relief.z * (1.0 - texel.a)) * vs_fade.x * clamp(vs_fade.y, 0.0, 1.0);
 #ifdef SOFT
     alpha *= clearance();
 #endif
     vec2 slope = texel.rg * 2.0 - 1.0;
-    float facing = clamp(vs_fade.w + dot(slope, vs_relief), 0.0, 1.0);
+    float facing = clamp(vs_fade.w + dot(slope, vs_relief.xy), 0.0, 1.0);
     vec3 light = mix(vs_shade, vs_lit, facing) * texel.b + vs_rim * (1.0 - texel.a * texel.a);
     color = vec4(mix(light, vs_haze.rgb, vs_haze.w) * alpha, alpha);
 }

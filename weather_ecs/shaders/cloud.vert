@@ -11,7 +11,7 @@ out vec3 vs_uv;
 out vec3 vs_lit;
 out vec3 vs_shade;
 out vec3 vs_rim;
-flat out vec2 vs_relief;  // the sun's direction in the image's axes
+flat out vec3 vs_relief;  // the sun's direction in the image's axes; softness of the outline
 out vec4 vs_fade;  // opacity, height over the base, depth over which it fades, facing
 flat out vec4 vs_haze;
 
@@ -67,7 +67,7 @@ void main()
     vs_rim = light.rim;
     vec2 sun = vec2(dot(cloud_sun.xyz, right), dot(cloud_sun.xyz, up));
     // In the shade the light comes from all round and shows no relief.
-    vs_relief = plain ? vec2(0.0) : vec2(dot(sun, ex), dot(sun, ey)) * light.relief;
+    vs_relief = vec3(vec2(dot(sun, ex), dot(sun, ey)) * light.relief, light.soft);
     vs_fade.w = light.facing;
 
     // Nothing is left of a billboard that the camera comes to.

@@ -10,6 +10,7 @@ struct Light {
     vec3 rim;  // that shines through where the cloud is thin
     float facing;  // 0 to 1: which of the two the vertex itself shows
     float relief;  // how much the image's own relief adds to it
+    float soft;  // 0 to 1: how soft the image's outline is
 };
 
 // The dissertation's own: diffuse = clamp(dot(sun, unit(v)) * sun colour - absorbed, 0, 1).
@@ -18,7 +19,7 @@ Light plain_light(vec3 v, float a)
     vec3 n = v / max(length(v), 1e-6);
     vec3 diffuse = clamp(dot(cloud_sun.xyz, n) * cloud_sun_color.rgb - a, 0.0, 1.0);
     vec3 color = diffuse + cloud_ambient.rgb;
-    return Light(color, color, vec3(0.0), 0.5, 0.0);
+    return Light(color, color, vec3(0.0), 0.5, 0.0, 0.0);
 }
 
 Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
@@ -28,11 +29,13 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     // cloud is turned towards the camera.
     vec3 whole = q / cloud.half_size;
     vec3 own = v - s;
-    vec3 n = 0.60 * whole / max(length(whole), 1e-9) + 0.30 * own / max(length(own), 1e-3)
-        - 0.45 * way;
+    vec3 n = 0.42 * whole / max(length(whole), 1e-9) + 0.50 * own / max(length(own), 1e-3)
+        - 0.36 * way;
     n /= max(length(n), 1e-6);
     float rise = clamp((v.y - cloud.base) / (cloud.half_size.y * 2.0), 0.0, 1.0);
     float towards = dot(cloud_sun.xyz, n);
+    // The ray was followed from the seed's centre; the side towards the sun has less before it.
+    a = clamp(a - 0.6 * cloud.thick * dot(own, cloud_sun.xyz), 0.0, 1.0);
     float through = exp(-0.75 * a);
 
     // Sky from above, ground and lit air from below; less of both deep inside.
@@ -51,13 +54,14 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     Light light;
     light.lit = (sun * (0.92 + 0.08 * towards) + ambient) * under * gloom;
     light.shade = (sun * (0.22 + 0.06 * towards) + ambient * 0.95) * under * gloom;
-    light.facing = clamp(0.62 + 0.50 * towards - 0.28 * a, 0.0, 1.0);
-    light.relief = 0.62 - 0.38 * a;
+    light.facing = clamp(0.60 + 0.58 * towards - 0.28 * a, 0.0, 1.0);
+    light.relief = (0.62 - 0.38 * a) * (0.45 + 0.55 * rise);
+    light.soft = 0.75 * (1.0 - rise) * (1.0 - rise);
 
     // Lining: where the cloud ends beside the line of sight, so that little lies behind.
     vec3 aside = q - way * dot(q, way);
-    float edge = smoothstep(0.45, 1.0, length(aside));
-    light.rim = cloud_look.x * cloud_sun_color.rgb * forward * (0.12 + 0.88 * edge) * (1.0 - 0.5 * a);
+    float edge = smoothstep(0.50, 1.0, length(aside));
+    light.rim = cloud_look.x * cloud_sun_color.rgb * forward * (0.08 + 0.92 * edge) * (1.0 - 0.5 * a);
 
     float inside = max(1.0 - 0.55 * dot(q, q), 0.12);
     vec3 flash = cloud.flash * inside * vec3(0.86, 0.90, 1.0);

@@ -17,6 +17,7 @@ struct Cloud {
     float darkness;
     float flash;
     float fresh;  // share of the newer of the absorptions
+    float thick;  // 1/m, what a way through it adds to what is absorbed
     vec3 half_size;  // m, of the box that holds the billboards, scaled
     float base;  // m, of the cloud's underside, from its centre
     vec3 haze;  // encoded
@@ -41,7 +42,7 @@ Cloud fetch_cloud(int row)
     vec4 d = texelFetch(cloud_rows, ivec2(3, row), 0);
     vec4 e = texelFetch(cloud_rows, ivec2(4, row), 0);
     vec4 f = texelFetch(cloud_rows, ivec2(5, row), 0);
-    return Cloud(a.xyz, a.w, b.xy, b.z, b.w, c.xy, c.z, c.w, d.x, d.y, d.z, e.xyz, e.w, f.xyz, f.w);
+    return Cloud(a.xyz, a.w, b.xy, b.z, b.w, c.xy, c.z, c.w, d.x, d.y, d.z, d.w, e.xyz, e.w, f.xyz, f.w);
 }
 
 Billboard fetch_billboard(int index)
