@@ -1,10 +1,14 @@
-"""Presets: named weathers, after the classes that weather services use."""
+"""Presets: named weathers, after the classes that weather services use; clouds and skies."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any
 
+from weather_ecs.cloud_files import CLOUD_MODELS as CLOUD_MODELS  # names of the kinds of cloud
+from weather_ecs.cloud_presets import SKIES as SKIES
+from weather_ecs.cloud_presets import cloud_model as cloud_model
+from weather_ecs.cloud_presets import sky as sky
 from weather_ecs.components import Air, Fog, RainArea, Wind
 from weather_ecs.errors import InvalidValueError
 

@@ -18,6 +18,7 @@ from weather_ecs.physics.cloud_images import CLOUD_IMAGES
 
 MOST_SEEDS = 1_000_000
 MOST_BILLBOARDS = 10_000_000
+FILLED = 0.75  # of an image's half-width; what lies beyond is clear or nearly so
 
 # The same fields as frame.BILLBOARD_DTYPE, which says what they are.
 BILLBOARDS = np.dtype(
@@ -105,7 +106,7 @@ def billboards(model: Any, boxes: Boxes, rng: np.random.Generator) -> NDArray:
     """Billboards of a cloud in its boxes, an array of BILLBOARDS; positions in the boxes' axes.
 
     `roundness` draws them from the whole box towards the ellipsoid in it. `flatness` lifts those
-    that would hang below the lowest box until they stand on its bottom. `order` is 0 for the one
+    that would hang below the lowest box until what they show stands on its bottom. `order` is 0 for the one
     nearest to the cloud's middle and rises evenly to 1 at the rim.
     """
     centers, sides = boxes.centers, boxes.sizes
@@ -124,7 +125,7 @@ def billboards(model: Any, boxes: Boxes, rng: np.random.Generator) -> NDArray:
     width = rng.uniform(model.size_min, model.size_max, n) * _each(model, "size_factor", origin)
     height = width * model.aspect * _each(model, "aspect_factor", origin)
     low = float((centers[:, 1] - 0.5 * sides[:, 1]).min())
-    lift = np.maximum(0.0, low + 0.5 * height - position[:, 1])
+    lift = np.maximum(0.0, low + FILLED * 0.5 * height - position[:, 1])
     position[:, 1] += model.flatness * lift
     turn = np.radians(model.turn) * _each(model, "turn_factor", origin)
 
