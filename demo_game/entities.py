@@ -10,7 +10,10 @@ import esper
 from demo_game.mood import Mood
 from demo_game.place import Place
 from demo_game.skies import Light, shade
+from weather_ecs import Weather
 from weather_ecs.components import (
+    Air,
+    Fog,
     Occluder,
     PointLight,
     RainArea,
@@ -39,6 +42,8 @@ BREEZE: dict[str, Any] = {
     "gustiness": 0.5, "interval": 16.0, "veer": 0.22, "veer_period": 70.0,
     "exponent": 1.0 / 7.0, "turbulence": 0.18,
 }  # fmt: skip
+CLEAREST = 7000.0  # m, that one sees in the place's own air on the clearest day
+FOG_DEPTH = 250.0  # m, overhead
 PLACE_MIDDLE = (0.0, -40.0)  # (x, z), m
 
 
@@ -58,7 +63,8 @@ class Entities:
             drift=1.0,
         )
         self._wind, self._sun = Wind(**BREEZE), Sun()
-        looks = RainContainer(), SplashEmitter()
+        self._air, self._fog = Air(), Fog()
+        looks = RainContainer(), SplashEmitter(), self._air, self._fog
         for component in (self.area, self.shower, *looks, self._wind, self._sun):
             esper.create_entity(component)
         (x, z), (a, b), level = place.pond
@@ -91,6 +97,8 @@ class Entities:
         x, z = direction(mood.wind_heading)
         if x * self._wind.direction[0] + z * self._wind.direction[1] < 1.0 - 1e-9:
             self._wind.direction = (x, z)
+        _assign(self._air, temperature=mood.temperature, humidity=mood.humidity)
+        _assign(self._fog, visibility=clearest(mood.visibility), color=displayed(light))
         light = shade(light, share * mood.rain_rate)
         _assign(
             self._sun,
@@ -106,6 +114,10 @@ class Entities:
         for name, pose in self._place.poses(time).items():
             self._moving[name].transform = pose
         self._send_shower_on(mood.wind_heading)
+
+    def snow_on_actors(self, weather: Weather) -> tuple[float, float]:
+        """m of snow on the figure's shoulders and on the sails."""
+        return weather.snow_on(self._moving["figure/torso"]), weather.snow_on(self._moving["sails"])
 
     def areas(self) -> list[RainArea]:
         """All rain areas."""
@@ -136,6 +148,33 @@ def on_course(along: float, heading: float) -> tuple[float, float]:
         PLACE_MIDDLE[0] + x * along + z * SHOWER_DISTANCE,
         PLACE_MIDDLE[1] + z * along - x * SHOWER_DISTANCE,
     )
+
+
+def clearest(visibility: float) -> float:
+    """m that one sees at most: a valley's own haze is in its air."""
+    return min(visibility, CLEAREST)
+
+
+def fog_left(visibility: float) -> float:
+    """Share of the sun's light that gets down through the fog overhead, 0 to 1."""
+    return math.exp(-fog_overhead(visibility))
+
+
+def fog_overhead(visibility: float) -> float:
+    """Optical depth of the fog straight up, without the haze that is always there."""
+    return 3.912 * (1.0 / clearest(visibility) - 1.0 / CLEAREST) * FOG_DEPTH
+
+
+def displayed(light: Light) -> tuple[float, float, float]:
+    """The fog's colour for the weather, whose own curve then shows it as the scene's curve does."""
+    r, g, b = (shown(value) ** 2.2 for value in light.horizon_color)
+    return r, g, b
+
+
+def shown(value: float) -> float:
+    """Scene light as it is displayed; tone.glsl in plain numbers."""
+    c = max(value - 0.004, 0.0)
+    return (c * (6.2 * c + 0.5)) / (c * (6.2 * c + 1.7) + 0.06)
 
 
 def _assign(component: Any, **fields: Any) -> None:

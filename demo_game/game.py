@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from dataclasses import replace
 from typing import Any
 
 import esper
@@ -12,7 +13,7 @@ import moderngl
 from demo_game.camera import Pose, projection_matrix, view_matrix
 from demo_game.collision import Colliders
 from demo_game.compass import compass
-from demo_game.entities import Entities, direction
+from demo_game.entities import Entities, direction, fog_left, fog_overhead
 from demo_game.letter import Letter, State
 from demo_game.mood import TURN_STEP, WIND_STEP, Mood, MoodChanger, preset_mood
 from demo_game.place import Place
@@ -20,7 +21,7 @@ from demo_game.player import Intent, Player
 from demo_game.render import Environment, SceneRenderer
 from demo_game.settings import Settings
 from demo_game.showers import Showers
-from demo_game.skies import SkyChanger
+from demo_game.skies import SkyChanger, hide
 from demo_game.tours import Tour
 from weather_ecs import Weather
 from weather_ecs.components import RainArea
@@ -31,10 +32,14 @@ WIND_HEADING = math.radians(-22.5)  # to the east, a little south
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings its own clouds
 SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
+COMPARED_TOURS = ("walk", "run", "crossing")
+SNOW_BELOW = 4.0  # degrees Celsius at which there may be some
+SKY_HEIGHT = 60.0  # m, above whatever shelters
 START = (0.0, 70.0)  # (x, z), m, where a player begins, looking north
 AGAIN = (6.0, -60.7)  # (x, z), m, where one begins anew: inside the cabin's door
 HAND = (1.1, 0.35)  # m above the feet and before the body, where the letter is held
-CLEAR_FOG, COVERED_FOG = 0.00035, 0.0011  # 1/m under a clear and a covered sky
+# Presets whose point is the air: a tour's scenery follows these, and not the rains.
+AIRS = frozenset(("sleet", "light_snow", "heavy_snow", "blizzard", "fog"))
 
 _numbers = itertools.count(1)
 STILL = Intent()
@@ -70,7 +75,7 @@ class Game:
         self.player.place_at(*start, yaw=0.0)
         self.letter = Letter(self.place.letter, self.place.mailbox)
         self._showers, self._lull, self._news = Showers(seed), False, [FETCH]
-        self._entities = Entities(self.place, self.mood.current, self._light(), SCENE_START)
+        self._entities = Entities(self.place, self._mood(), self._light(), SCENE_START)
         self.scene = SceneRenderer(context, self.place, settings.quality)
         try:
             self.weather = self._make_weather()
@@ -97,7 +102,7 @@ class Game:
         self.mood.update(dt)
         self.sky.update(dt)
         share = self._showers.share(self.time) if self.tour is None else 1.0
-        self._entities.update(self.mood.current, self._light(), self._scene_time, share)
+        self._entities.update(self._mood(), self._light(), self._scene_time, share)
         if self.tour is None:
             self.player.update(dt, intent)
         self.pose = self._pose()
@@ -215,13 +220,22 @@ class Game:
     def _pose(self) -> Pose:
         return self.player.pose() if self.tour is None else self.tour.pose(self.time)
 
+    def _scenery(self) -> Mood:
+        """What sky and air follow: on a tour not the rain, so that two differ by the rain alone."""
+        if self.tour is not None and self.mood.preset not in AIRS:
+            return preset_mood(TOUR_SKY, WIND_HEADING)
+        return self.mood.current
+
+    def _mood(self) -> Mood:
+        """What the weather follows."""
+        return replace(self.mood.current, visibility=self._scenery().visibility)
+
     def _overcast(self) -> float:
-        if self.tour is not None:  # so that the difference of two tours is the rain alone
-            return SKY_LEAST + SKY_SHARE * PRESETS[TOUR_SKY].overcast
-        return SKY_LEAST + SKY_SHARE * self.mood.current.overcast
+        return SKY_LEAST + SKY_SHARE * self._scenery().overcast
 
     def _light(self) -> Any:
-        return self.sky.light(self._overcast())
+        light = self.sky.light(self._overcast())
+        return hide(light, fog_left(self._scenery().visibility))
 
     def _wind(self, mood: Mood) -> tuple[float, float, float]:
         """What the scenery sways in, m/s at 10 m; on a tour the same whatever the weather."""
@@ -233,9 +247,7 @@ class Game:
 
     def _environment(self) -> Environment:
         light, overcast = self._light(), self._overcast()
-        mood = self.mood.current
-        if self.tour is not None:
-            mood = preset_mood(TOUR_SKY, WIND_HEADING)
+        mood = self._scenery()
         return Environment(
             sun_direction=light.sun_direction,
             sun_color=light.sun_color,
@@ -244,14 +256,33 @@ class Game:
             ground_color=light.ground_color,
             overcast=overcast,
             wetness=0.0,  # but in the rain areas, which the renderer wets itself
-            fog_density=CLEAR_FOG + overcast * (COVERED_FOG - CLEAR_FOG),
+            fog_density=self.weather.air(position=self.pose.eye).extinction,
             fog_color=light.horizon_color,
+            fog_overhead=fog_overhead(mood.visibility),
             rain_areas=[
                 (area.center, area.radii, area.heading, rate, area.ceiling)
                 for area, rate in self._entities.rates(mood)
             ],
             wind=self._wind(mood),
             ripples=self.weather.ripples(self._entities.pond),
-            water=self.weather.wetness() if self.tour is None else None,
+            water=self.weather.wetness() if self._is_wetted else None,
+            snow=self._snows,
+            actor_snow=self._entities.snow_on_actors(self.weather),
             lamps=light.lamps,
         )
+
+    @property
+    def _is_wetted(self) -> bool:
+        """Whether ground and walls show the weather's own water and snow.
+
+        On the tours that are compared with their clear selves they are painted wet instead, so
+        that the difference is the rain alone.
+        """
+        return self.tour is None or self.tour.name not in COMPARED_TOURS or self._snows
+
+    @property
+    def _snows(self) -> bool:
+        """Whether snow may fall or lie."""
+        x, z = self._entities.area.center
+        there = self.weather.sample((x, SKY_HEIGHT, z))
+        return there.temperature < SNOW_BELOW or there.snow_depth > 0.0

@@ -278,7 +278,9 @@ def test_a_tour_has_the_same_scene_with_any_preset(
     pictures = []
     for preset in ("clear", "cloudburst"):
         tour = make_tour("walk", place, 10.0)
-        looks_away = SimpleNamespace(pose=lambda time, tour=tour: away(tour.pose(0.0)))
+        looks_away = SimpleNamespace(
+            name=tour.name, pose=lambda time, tour=tour: away(tour.pose(0.0))
+        )
         game = Game(ctx, Settings(quality="low"), place=place, preset=preset, tour=looks_away)  # type: ignore[arg-type]
         for _ in range(3):
             game.update(1 / 60)

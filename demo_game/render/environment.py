@@ -38,10 +38,14 @@ class Environment:
     wetness: float = 0.0  # 0..1, everywhere; rain areas add their own
     fog_density: float = 1.0 / 1400.0  # 1/m
     fog_color: Color = (0.60, 0.66, 0.72)
+    fog_overhead: float = 0.0  # optical depth straight up, of what hides the sky
+    fog_rim: float = 8e-5  # square of the sine of the elevation below which that stays as it is
     rain_areas: Sequence[RainPatch] = field(default_factory=list)
     wind: tuple[float, float, float] = (2.0, 0.0, 0.6)  # m/s
     ripples: Ripples | None = None  # on the pond
     water: Water | None = None  # on the ground; without it rain areas and wetness wet it
+    snow: bool = False  # whether any may lie, as `water` knows
+    actor_snow: tuple[float, float] = (0.0, 0.0)  # m, on the figure and on the sails
     lamps: float | None = None  # 0..1, how bright lamps burn; None: as the daylight asks
 
     def lamp_strength(self) -> float:

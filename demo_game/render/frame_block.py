@@ -14,14 +14,13 @@ from .environment import Environment
 
 AREAS = 4
 CLOUD_SPEED = 2.0  # of the wind at the ground
-PHASE_PERIOD = 20.0 * math.pi  # the shaders' factors of the phase are tenths
 BINDING = 30  # the game's own; hosts hand out low ones, the weather takes the topmost
 FRAME_DTYPE = np.dtype(
     [
         ("view_projection", "f4", (4, 4)), ("shadow_matrix", "f4", (4, 4)),
         ("camera", "f4", 4), ("sun_direction", "f4", 4), ("sun_color", "f4", 4),
         ("zenith_color", "f4", 4), ("horizon_color", "f4", 4), ("ground_color", "f4", 4),
-        ("fog_color", "f4", 4), ("wind", "f4", 4), ("drift", "f4", 4),
+        ("fog_color", "f4", 4), ("fog_law", "f4", 4), ("wind", "f4", 4), ("drift", "f4", 4),
         ("gusts", "f4", (PAST // 4, 4)),
         ("area_shape", "f4", (AREAS, 4)), ("area_turn", "f4", (AREAS, 4)),
         ("area_cloud", "f4", (AREAS, 4)),
@@ -77,12 +76,14 @@ class FrameBlock:
         breeze = self._breeze
         passed = breeze.advance(time, env.wind)
         self._drift += passed * CLOUD_SPEED * np.array([env.wind[0], env.wind[2]])
-        wets = 0.0 if env.water is None else 1.0
+        wets = 0.0 if env.water is None else 2.0 if env.snow else 1.0
         row["drift"] = (*self._drift, wets, breeze.wave)
         row["wind"] = (*breeze.way, breeze.front, breeze.sway)
         row["gusts"] = breeze.past().reshape(-1, 4)
         areas = [a for a in env.rain_areas if a[3] > 0.0][:AREAS]
         row["fog_color"] = (*env.fog_color, len(areas))
+        dense = 1.0 - math.exp(-4.0 * env.fog_overhead)
+        row["fog_law"] = (env.fog_overhead, env.fog_rim, dense, 0.0)
         for k, (center, (a, b), heading, rate, ceiling) in enumerate(areas):
             strength = 1.0 - math.exp(-rate / 4.0)
             row["area_shape"][k] = (*center, 1.0 / a, 1.0 / b)

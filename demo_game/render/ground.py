@@ -77,7 +77,8 @@ class Ground:
                 wet |= np.linalg.norm(middle - center, axis=1) < a * 1.02 + half
         if environment.water is not None:
             self._dry_from[wet] = time + DRIES
-            wet = self._dry_from > time
+            # Snow does not dry.
+            wet = self._dry_from > (0.0 if environment.snow else time)
         return wet
 
     def _live_chunks(self, spheres: list[tuple[NDArray, float]], sun: NDArray) -> NDArray:

@@ -103,7 +103,7 @@ class SceneRenderer:
         planes = geometry.frustum_planes(p @ v)
         sun = unit(environment.sun_direction)
         self.ctx.wireframe = False
-        self._actors.pose(time)
+        self._actors.pose(time, environment.actor_snow)
         self._update_shadows(sun, camera)
         self._block.fill(time, environment, self._shadows.lookup)
         self._block.upload()

@@ -118,8 +118,9 @@ class Actors:
         self.spheres: list[tuple[NDArray, float]] = []
         self._radius = float(np.linalg.norm(self._sails.vertices, axis=1).max())
 
-    def pose(self, time: float) -> None:
-        """Take the pose of a time, s."""
+    def pose(self, time: float, snow: tuple[float, float] = (0.0, 0.0)) -> None:
+        """Take the pose of a time, s, with so much snow (m) on the figure and on the sails."""
+        self.program["part_snow"] = snow
         poses = [*self._place.figure_pose(time).values(), *self._place.mover_pose(time).values()]
         padded = [*poses, *[np.eye(4)] * (PARTS - len(poses))]
         set_matrix(self.program, "parts", *padded)

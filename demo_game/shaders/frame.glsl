@@ -9,6 +9,7 @@ layout(std140) uniform Frame {
     vec4 horizon_color;   // rgb, w fog density 1/m
     vec4 ground_color;    // rgb, w depth bias of leaves
     vec4 fog_color;       // rgb, w number of rain areas
+    vec4 fog_law;         // optical depth straight up, its rim; 0 haze to 1 fog that hides hills
     vec4 wind;            // x, z where it blows to, z m/s at which gusts come, w sway phase rad
     vec4 drift;           // x, z m, how far the clouds have come; 1 where the weather wets, 2 where it snows;
                           // w phase of waves in grass rad
@@ -17,3 +18,6 @@ layout(std140) uniform Frame {
     vec4 area_turn[4];    // cos, sin of the heading, darkness, wetness
     vec4 area_cloud[4];   // base m, half thickness m, spread, strength
 };
+
+// Albedo of snow: when fresh it throws back nearly nine tenths of the light.
+const vec3 SNOW = vec3(0.84, 0.86, 0.90);

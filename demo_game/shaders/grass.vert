@@ -16,7 +16,9 @@ out vec3 v_shade;
 void main() {
     vec3 root = in_root.xyz;
     float size = 1.0 - smoothstep(reach.x, reach.y, distance(root.xz, camera.xz));
-    vec3 p = mix(root, in_position, size);
+    // Snow weighs blades down and hides their feet.
+    float snowy = snow_cover(root, vec3(0.0, 1.0, 0.0));
+    vec3 p = mix(root, in_position, size * (1.0 - 0.62 * snowy));
     float phase = wind.w * 1.7 + dot(root.xz, vec2(0.9, 0.7));
     // Waves run before the wind, in broken lines, and the more so the more it blows.
     float blows = wind_at(root.xz);
@@ -31,6 +33,7 @@ void main() {
     p.xz += vec2(sin(phase * 1.9), cos(phase * 1.6)) * (flutter * in_color.w);
     vec2 cover = rain_cover(root.xz);
     vec3 albedo = in_color.rgb * in_color.rgb * (1.0 - 0.28 * cover.y);
+    albedo = mix(albedo, SNOW, snowy * (0.55 + 0.40 * in_color.w));
     vec3 ambient = sky_light(vec3(0.0, 1.0, 0.0), cover.x) * (0.62 + 0.38 * in_color.w);
     ambient += LAMP_COLOR * (LAMP_STRENGTH * in_root.w * 4.0 * sun_direction.w);
     vec4 air = haze(p);

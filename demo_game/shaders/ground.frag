@@ -1,6 +1,7 @@
 #include "frame.glsl"
 #include "tone.glsl"
 #include "sky_map.glsl"
+#include "fog_light.glsl"
 
 uniform sampler2D meadow_map;
 uniform vec4 map_window;   // low corner x, z, 1 / size x, z
@@ -19,6 +20,7 @@ uniform sampler2D sky_map;
 in vec4 v_light;
 in vec4 v_haze;
 in vec4 v_view;
+in float v_snow;
 #ifndef NEAR
 in vec4 v_wild;
 #endif
@@ -27,6 +29,11 @@ out vec4 out_color;
 
 void main() {
     vec3 p = camera.xyz - v_view.xyz;
+#ifdef NEAR
+    vec4 air = v_haze;
+#else
+    vec4 air = haze_at(v_haze);
+#endif
     vec4 painted = texture(meadow_map, (p.xz - map_window.xy) * map_window.zw);
     vec3 albedo = painted.rgb * painted.rgb;
     float lit = painted.a;
@@ -43,15 +50,31 @@ void main() {
     vec4 detail = texture(detail_map, p.xz * 0.31) - 0.5;
     albedo *= 1.0 + mix(detail.b * 1.35, detail.g, bare);
 #endif
+    // Thin snow lies in the hollows first, and earth holds less of it than grass.
+    float snowy = 0.0;
+#ifndef NEAR
+    snowy = smoothstep(0.0, 1.0, v_snow * 0.5 - 0.45 * bare);
+#elif defined(WET)
+    if (drift.z > 1.5) {
+        float deep = weather_snow(p, vec3(0.0, v_snow, 0.0)) * 1000.0;
+        snowy = smoothstep(0.0, 1.0, deep * 0.5 - 0.8 * (detail.g + detail.b) - 0.45 * bare);
+    }
+#endif
+    vec3 snow = SNOW;
+#ifdef NEAR
+    snow *= 1.0 + 0.14 * detail.b + 0.05 * detail.g;
+#endif
+    albedo = mix(albedo, snow, snowy);
+    wet *= 1.0 - snowy;
     vec3 color = albedo * (v_light.rgb + sun_full * (v_light.a * lit));
 #ifdef WET
     float puddle = clamp(detail.a * 8.5 + 0.35, 0.0, 1.0) * wet;
     if (drift.z > 0.5) {
         float water = weather_water(p);
-        wet = weather_damp(water);
+        wet = weather_damp(water) * (1.0 - snowy);
         puddle = weather_pooled(water, 5.0 - 12.5 * detail.a);
     }
-    puddle *= bare;
+    puddle *= bare * (1.0 - snowy);
     color *= 1.0 - wet * (0.28 + 0.20 * bare) - 0.25 * puddle;
     vec3 view = normalize(v_view.xyz);
     vec2 tilt = detail.bg * (0.9 - 0.86 * puddle);
@@ -59,16 +82,16 @@ void main() {
     float away2 = away * away;
     float fresnel = 0.02 + 0.98 * away2 * away2 * away;
     vec3 sky = texture(sky_map, sky_uv_unit(vec3(tilt - view.xz, view.y).xzy)).rgb;
-    color = tone(color * v_haze.a + v_haze.rgb);
+    color = tone(color * air.a + air.rgb);
     // Blended as display values, which the sky's map holds; the root makes up for it.
     float share = mix(fresnel * wet * (0.20 + 0.25 * bare), sqrt(fresnel) * 0.92, puddle);
-    color = mix(color, sky, share * v_haze.a);
+    color = mix(color, sky, share * air.a);
     out_color = vec4(color, 1.0);
 #else
 #ifndef NEAR
     color *= 1.0 - wet * (0.28 + 0.20 * bare);
     color += horizon_color.rgb * (wet * (0.05 + 0.14 * bare));
 #endif
-    out_color = vec4(tone(color * v_haze.a + v_haze.rgb), 1.0);
+    out_color = vec4(tone(color * air.a + air.rgb), 1.0);
 #endif
 }

@@ -9,6 +9,7 @@ in vec4 in_color;     // square root of the albedo beyond the painted map, w: pa
 out vec4 v_light;     // sky's rgb, sun's facing
 out vec4 v_haze;
 out vec4 v_view;      // towards the camera, m; w wetness
+out float v_snow;     // near: upward part of the normal; far: mm of snow
 #ifndef NEAR
 out vec4 v_wild;
 #endif
@@ -16,8 +17,17 @@ out vec4 v_wild;
 void main() {
     vec3 n = normalize(in_normal.xyz);
     vec2 cover = rain_cover(in_position.xz);
+#ifdef NEAR
+    v_snow = n.y;
+#else
+    v_snow = drift.z < 1.5 ? 0.0 : 10.0 * weather_open_snow(in_position) * smoothstep(0.5, 0.8, n.y);
+#endif
     v_light = vec4(sky_light(n, cover.x), sun_share(max(dot(n, sun_direction.xyz), 0.0), cover.x));
+#ifdef NEAR
     v_haze = haze(in_position);
+#else
+    v_haze = haze_depth(in_position);
+#endif
     v_view = vec4(camera.xyz - in_position, cover.y);
 #ifndef NEAR
     v_wild = vec4(in_color.rgb * in_color.rgb, in_color.a);

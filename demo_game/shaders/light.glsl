@@ -2,6 +2,7 @@
 const vec3 LAMP_COLOR = vec3(1.0, 0.66, 0.36);
 const float LAMP_STRENGTH = 1.5;
 #include "wetness.glsl"
+#include "fog_light.glsl"
 
 // x: share of daylight the rain clouds take at p, y: wetness they bring.
 vec2 rain_cover(vec2 p) {
@@ -19,6 +20,18 @@ vec2 rain_cover(vec2 p) {
     return cover;
 }
 
+// 0 to 1: how much of a surface at p with a unit normal n snow hides.
+float snow_cover(vec3 p, vec3 n) {
+    if (drift.z < 1.5) return 0.0;
+    return weather_snow_cover(weather_snow(p, n));
+}
+
+// The same of grass and leaves at large, and of far ground.
+float open_snow_cover(vec3 p) {
+    if (drift.z < 1.5) return 0.0;
+    return weather_snow_cover(0.01 * weather_open_snow(p));
+}
+
 vec3 sky_light(vec3 n, float dim) {
     vec3 above = mix(horizon_color.rgb, zenith_color.rgb, 0.5) * (0.92 - 0.30 * dim);
     vec3 below = ground_color.rgb * (0.45 + 0.75 * sun_direction.y) * (1.0 - 0.3 * dim);
@@ -29,14 +42,18 @@ float sun_share(float facing, float dim) {
     return facing * (1.0 - 0.90 * dim);
 }
 
-// Premultiplied haze: colour * a + rgb. It glows towards the sun, and is a little darker and
-// bluer than the sky at the horizon, so that hills stand out from it.
+// Premultiplied haze: colour * a + rgb.
 vec4 haze(vec3 p) {
     vec3 way = p - camera.xyz;
     float away = length(way);
     float thin = exp(-away * horizon_color.w);
-    float glow = max(dot(way, sun_direction.xyz) / max(away, 0.01), 0.0);
-    vec3 color = fog_color.rgb * vec3(0.78, 0.84, 0.92);
-    color += sun_color.rgb * (0.30 * glow * glow * glow * (1.0 - zenith_color.w));
-    return vec4(color * (1.0 - thin), thin);
+    return vec4(fog_light(way / max(away, 0.01)) * (1.0 - thin), thin);
+}
+
+// The same in two steps, where vertices are so far apart that dense fog would not run straight
+// between them: colour and optical depth first, then the haze of a pixel.
+vec4 haze_depth(vec3 p) {
+    vec3 way = p - camera.xyz;
+    float away = length(way);
+    return vec4(fog_light(way / max(away, 0.01)), away * horizon_color.w);
 }

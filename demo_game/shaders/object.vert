@@ -18,6 +18,7 @@ in vec4 in_turn;      // cos, sin, lamp light, tint
 #ifdef PARTS
 uniform mat4 parts[12];
 uniform vec4 part_light;  // x lamp light at the figure
+uniform vec2 part_snow;   // m, on the figure, on the sails
 #endif
 uniform vec3 sun_full;
 
@@ -72,6 +73,18 @@ void main() {
     facing = mix(max(facing, 0.0), max((facing + 0.40) / 1.40, 0.0), leaf);
     float wet = cover.y * smoothstep(0.30, 0.75, sky);
     albedo *= 1.0 - 0.42 * wet * (0.55 + 0.45 * n.y) * (1.0 - 0.5 * leaf);
+#ifdef PARTS
+    // It stays on hat and shoulders, not on what swings.
+    float which = in_extra.y * 255.0;
+    float deep = which < 1.5 ? part_snow.x : which > 9.5 ? part_snow.y : 0.0;
+    float snowy = weather_snow_cover(deep) * smoothstep(0.35, 0.75, n.y);
+#elif defined(TREES)
+    float snowy = open_snow_cover(p) * smoothstep(-0.35, 0.55, n.y) * smoothstep(0.2, 0.7, sky);
+#else
+    float snowy = snow_cover(p + vec3(0.0, 0.02, 0.0), n) * smoothstep(0.2, 0.5, sky);
+#endif
+    albedo = mix(albedo, SNOW, snowy);
+    wet *= 1.0 - snowy;
     vec3 ambient = sky_light(n, cover.x) * sky;
     // Where no sky is seen lamps burn by day as well.
     float burn = mix(0.9, sun_direction.w, min(sky * 1.6, 1.0));
