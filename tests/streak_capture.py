@@ -47,6 +47,7 @@ def view_of(view: ViewData, height: int) -> StreakView:
         view.velocity,
         look.exposure,
         0.5 * height * float(view.projection[1, 1]),
+        (height * float(view.projection[1, 1] / view.projection[0, 0]), height),
         sky.sun_direction,
         sky.sun_color,
         tuple((view.frame.look.brightness * drop_light(sky)).tolist()),

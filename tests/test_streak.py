@@ -21,8 +21,6 @@ from weather_ecs.systems.rain_view import RainView
 
 NORTH = math.pi / 2
 SIZE = (320, 180)
-# Mean over a quad of what streak.frag leaves of the opacity: rim, then both ends.
-PROFILE = (1.0 - 0.4 / 3.0) * (1.0 - 0.5 / 3.0 - 0.5 / 6.0)
 
 
 class Scene(NamedTuple):
@@ -219,7 +217,7 @@ def level_scene(rate: float, width: float, drops: int = 120_000) -> Scene:
     return scene(frame(area(radii=(500.0, 500.0), rain_rate=rate), look=look), at, drops)
 
 
-@pytest.mark.parametrize(("rate", "width"), [(3.0, 20.0), (6.0, 5.0), (25.0, 12.0)])
+@pytest.mark.parametrize(("rate", "width"), [(3.0, 20.0), (6.0, 9.0), (25.0, 16.0)])
 def test_area_times_opacity_is_the_rains_cross_section(rate: float, width: float) -> None:
     """Between two depths the streaks hide, per pixel, the cross-section per cubic metre times
     the depth: the optical depth of the rain, in any slice of the container, whatever the look."""
@@ -227,7 +225,7 @@ def test_area_times_opacity_is_the_rains_cross_section(rate: float, width: float
     o = expected(s, (1280, 720))
     depth, law = o.head[:, 3], law_of(s.container, s.view)
     share = 0.25 * math.pi * (rain_step.diameters(s.container.births[:, 3], law.law) * 1e-3) ** 2
-    clipped = o.weight * share > o.area * law.opacity * 1.0001
+    clipped = o.weight * share > o.area * o.solid * 1.0001
     middle = 0.5 * (o.head + o.tail)[:, :2] / np.maximum(depth, 1e-9)[:, None]
     inside = (np.abs(middle) < 1.0).all(axis=1) & (depth > 0.0)
     focal = 0.5 * 720 * float(s.view.projection[1, 1])
@@ -242,14 +240,14 @@ def test_area_times_opacity_is_the_rains_cross_section(rate: float, width: float
 
 
 def test_opacity_is_clipped_at_the_looks_greatest() -> None:
-    s = scene(frame(area(rain_rate=100.0), look=DropLook(opacity=0.3, width=1.0)), camera(), 500)
+    s = scene(frame(area(rain_rate=100.0), look=DropLook(opacity=0.3, width=9.0)), camera(), 500)
     o = expected(s)
     assert o.solid.max() == pytest.approx(0.3)
     assert (o.color[:, 3] <= 0.3 + 1e-9).all()
 
 
 def test_what_is_drawn_is_what_the_vertex_shader_says(capture: StreakCapture) -> None:
-    """The quads' pixels sum up to width times length times opacity times the quad's profile."""
+    """The quads' pixels sum up to width times length times opacity times the profile's mean."""
     s = level_scene(25.0, 8.0, 30_000)
     found = run(capture, s)
     drawn = found.width > 0
@@ -257,12 +255,39 @@ def test_what_is_drawn_is_what_the_vertex_shader_says(capture: StreakCapture) ->
         c[drawn, :2] / c[drawn, 3:] * (0.5 * SIZE[0], 0.5 * SIZE[1])
         for c in (found.tail, found.head)
     ]
-    length = np.maximum(np.linalg.norm(ends[1] - ends[0], axis=1), found.width[drawn])
+    span, width = np.linalg.norm(ends[1] - ends[0], axis=1), found.width[drawn]
+    length = np.maximum(span, width)
     middle = 0.5 * (ends[0] + ends[1])
     kept = (np.abs(middle) < (0.5 * SIZE[0], 0.5 * SIZE[1])).all(axis=1)
-    ink = (length * found.width[drawn] * found.color[drawn, 3])[kept].sum() * PROFILE
+    ink = (length * width * found.color[drawn, 3])[kept].sum() * streak.PROFILE
     pixels = capture.opacity(s.p, s.v, s.container.births, s.view, s.container)
     assert pixels.sum() == pytest.approx(ink, rel=0.03)
+
+
+@pytest.mark.parametrize("pitch", [-1.3, -0.6, 0.0, 0.9, 1.5])
+@pytest.mark.parametrize("width", [5.0, 16.0])
+def test_the_picture_hides_the_drops_cross_section_from_any_side(
+    capture: StreakCapture, pitch: float, width: float
+) -> None:
+    """Pixels times opacity, as they are drawn, are what the real drops hide at their depths."""
+    look = DropLook(reach=30.0, height=40.0, width=width, opacity=1.0, density=1.0)
+    at, size = camera((0.0, 20.0, 0.0), pitch=pitch), (640, 360)
+    s = scene(frame(area(radii=(500.0, 500.0), rain_rate=5.0), look=look), at, 60_000)
+    o, law = expected(s, size), law_of(s.container, s.view)
+    depth = np.maximum(o.head[:, 3], 1e-9)
+    diameter = rain_step.diameters(s.container.births[:, 3], law.law) * 1e-3
+    real = 0.25 * math.pi * diameter**2 * o.weight
+    inside = (depth > 1.7) & (o.area * o.solid > 0.999 * real)  # and not cut at the greatest
+    for end in (o.head, o.tail):
+        ndc = end[:, :2] / np.maximum(end[:, 3:], 1e-9)
+        inside &= (np.abs(ndc) < 0.9).all(axis=1) & (end[:, 3] > 0.1)
+    focal = 0.5 * size[1] * float(s.view.projection[1, 1])
+    # The others are still there, as drops of their own numbers, but nothing is to be seen of them.
+    v = np.where(inside[:, None], s.v, [0.0, 9000.0, 0.0]).astype(np.float32)
+    pixels = capture.opacity(s.p, v, s.container.births, s.view, s.container, size)
+    assert inside.sum() > 1000
+    hidden = (real * (focal / depth) ** 2)[inside].sum()
+    assert pixels.sum() == pytest.approx(hidden, rel=0.03)
 
 
 @pytest.mark.parametrize("width", [5.0, 1.5])

@@ -66,7 +66,7 @@ class DropLook:
     size_maximum: float = 8.0  # Eq. 3's factor at the container's rim
     exposure: float = 1.0 / 24.0  # s, length of the path a streak shows
     width: float = 4.0  # factor on the drop's diameter, look only
-    density: float = 6.0  # factor on how much the drops cover: 1 is what nature shows
+    density: float = 3.7  # factor on how much the drops cover: 1 is what nature shows
     brightness: float = 1.6  # factor on the light of the sky that drops show
     opacity: float = 0.6  # greatest opacity of one streak
     veil: float = 2.5  # factor on the veil's extinction, look only
@@ -83,7 +83,7 @@ class SnowLook:
     exposure: float = 1.0 / 90.0  # s, over which a flake in motion is drawn out
     flutter: float = 1.0  # factor on how far flakes sway
     density: float = 5.0  # factor on how much the flakes cover: 1 is what nature shows
-    brightness: float = 2.0  # factor on the light of sky and ground that flakes show
+    brightness: float = 1.7  # factor on the light of sky and ground that flakes show
     opacity: float = 0.9  # greatest opacity of one flake
     aperture: float = 0.004  # m, of the eye or lens that sees near flakes out of focus
     veil: float = 1.0  # factor on the veil's extinction, look only

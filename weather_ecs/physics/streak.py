@@ -2,8 +2,9 @@
 
 A drop that is drawn stands for `weight` real ones; its streak is as long as the drop's path
 relative to the camera during the exposure, as wide as the drop, both times a factor of the look,
-and its area times its opacity is the cross-section of the real drops. What is thinner than a
-pixel is drawn a pixel wide and so much fainter.
+and what it hides of the picture is the cross-section of the real drops: its area as it is seen,
+times its opacity, times the mean of its profile. What is thinner than a pixel is drawn a pixel wide
+and so much fainter.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ LANDED = 1024.0  # m/s upwards: no velocity but the mark of a drop that has hit 
 CLOSEST = 0.1  # m in front of the camera
 FAINTEST = 0.002  # opacity below which nothing is drawn
 OUTSIDE = 1.02  # in normalised device coordinates, of both ends
+# Mean over a streak of what streak.frag leaves of its opacity: the rim, then both ends.
+PROFILE = (1.0 - 0.4 / 3.0) * (1.0 - 0.5 / 3.0 - 0.5 / 6.0)
 
 
 def no_lights() -> FloatArray:
@@ -39,6 +42,7 @@ class StreakView:
     velocity: tuple[float, float, float]  # m/s
     exposure: float  # s
     pixels: float  # per unit of width over depth
+    size: tuple[float, float]  # pixels, width and height
     sun_direction: tuple[float, float, float]
     sun_color: tuple[float, float, float]
     drop_color: tuple[float, float, float]  # what a drop shows of the sky
@@ -76,8 +80,8 @@ class Streaks:
     color: FloatArray  # (n, 4), encoded, with opacity
     width: FloatArray  # (n,), pixels
     weight: FloatArray  # (n,), real drops
-    area: FloatArray  # (n,), m2, of the streak as if it were not drawn in pixels
-    solid: FloatArray  # (n,), opacity of that area
+    area: FloatArray  # (n,), m2 at its depth that it takes in the picture, times its profile's mean
+    solid: FloatArray  # (n,), opacity of that area, but for the fading of what is close
 
 
 def drop_weight(
@@ -133,18 +137,30 @@ def streaks(p: NDArray, v: NDArray, birth: NDArray, view: StreakView, law: Strea
     weight = weight * fallen_share(fallen, law.dry)
     diameter = size * 1e-3
     width = diameter * size_factor(d, law.size_maximum) * law.width * law.size_scale
-    area = width * (np.linalg.norm(path, axis=1) + width)
-    solid = np.minimum(0.25 * math.pi * diameter**2 * weight * law.density / area, law.opacity)
+    scale = view.pixels / np.where(drawn, head[:, 3], 1.0)
+    pixels = width * scale
+    area = drawn_area(h, tail, np.maximum(pixels, 1.0), view) / scale**2
+    most = law.opacity * np.minimum(pixels, 1.0)
+    solid = np.minimum(0.25 * math.pi * diameter**2 * weight * law.density / area, most)
 
-    pixels = width * view.pixels / np.where(drawn, head[:, 3], 1.0)
     near = np.clip((head[:, 3] - 0.3) / 1.3, 0.0, 1.0)
-    opacity = solid * np.minimum(pixels, 1.0) * near * near * (3.0 - 2.0 * near)
+    opacity = solid * near * near * (3.0 - 2.0 * near)
     drawn &= opacity >= FAINTEST
     color = np.column_stack([np.maximum(light_on(p, view), 0.0) ** (1.0 / 2.2), opacity])
     return Streaks(
         *(np.where(drawn[:, None], x, 0.0) for x in (tail, head, color)),
         *(np.where(drawn, x, 0.0) for x in (np.maximum(pixels, 1.0), weight, area, solid)),
     )
+
+
+def drawn_area(h: NDArray, tail: NDArray, wide: NDArray, view: StreakView) -> FloatArray:
+    """Pixels that streaks take, times their profile's mean, (n,); as shaders/streak.geom draws them.
+
+    h (n, 2): heads in normalised device coordinates; tail (n, 4): clip space; wide: pixels.
+    """
+    t = tail[:, :2] / np.maximum(tail[:, 3], CLOSEST)[:, None]
+    span = np.linalg.norm((h - t) * 0.5 * np.asarray(view.size), axis=1)
+    return PROFILE * wide * np.maximum(span, wide)
 
 
 def _clip(points: NDArray, view_projection: NDArray) -> FloatArray:

@@ -12,7 +12,7 @@ out vec2 gs_uv;
 flat out vec4 gs_color;
 
 // What the profile leaves of a quad, over what it leaves of the tapered triangle.
-const float TAPERED = 0.87;
+const float TAPERED = 0.8577;
 
 void corner(vec3 at, vec2 off, vec2 uv, float strength)
 {

@@ -1,5 +1,5 @@
 // What one drop looks like: its streak's two ends, width and opacity; the drop stands for `weight`
-// real ones, and its area times its opacity is their cross-section.
+// real ones, and what it hides of the picture, its profile counted, is their cross-section.
 #include "drop_law.glsl"
 #include "drop_weight.glsl"
 #include "landed.glsl"
@@ -16,6 +16,9 @@ out vec4 vs_tail;   // clip space
 out vec4 vs_head;
 out vec4 vs_color;  // encoded, with opacity
 out float vs_width; // pixels; 0 where there is nothing to draw
+
+// Mean over a streak of what streak.frag leaves of its opacity: the rim, then both ends.
+const float PROFILE = (1.0 - 0.4 / 3.0) * (1.0 - 0.5 / 3.0 - 0.5 / 6.0);
 
 void main()
 {
@@ -44,13 +47,18 @@ void main()
     path *= drop_look.y;  // far drops are drawn larger in all directions
     tail = view_projection * vec4(p - path, 1.0);
     if (tail.w < 0.1) return;
-    float covered = 0.785398 * diameter * diameter * weight * drop_load.w;
-    float opacity = min(covered / (width * (length(path) + width)), drop_look.w);
 
-    float pixels = width * camera_position.w / head.w;
-    opacity *= min(pixels, 1.0) * smoothstep(0.3, 1.6, head.w);
+    // In pixels: what the streak takes as streak.geom draws it, and what it should cover.
+    float scale = camera_position.w / head.w;
+    float pixels = width * scale;
+    float wide = max(pixels, 1.0);
+    float span = length((h - tail.xy / tail.w) * 0.5 * view_size.xy);
+    float drawn = PROFILE * wide * max(span, wide);
+    float covered = 0.785398 * diameter * diameter * scale * scale * weight * drop_load.w;
+    float opacity = min(covered / drawn, drop_look.w * min(pixels, 1.0));
+    opacity *= smoothstep(0.3, 1.6, head.w);
     if (opacity < 0.002) return;
-    vs_width = max(pixels, 1.0);
+    vs_width = wide;
     vs_head = head;
     vs_tail = tail;
 

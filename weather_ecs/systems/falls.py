@@ -14,6 +14,10 @@ from weather_ecs.physics.drops import drop_density, extinction
 from weather_ecs.physics.rain_step import law_of
 from weather_ecs.physics.snow import snow_extinction
 from weather_ecs.physics.snowfall import snowfall
+from weather_ecs.physics.streak import PROFILE
+
+
+_HEAVY = 2.5  # mm/h of water, from which snow is heavy
 
 
 class Fall(NamedTuple):
@@ -26,6 +30,7 @@ class Fall(NamedTuple):
     cover: float  # share of its disc that one hides
     extinction: float  # 1/m
     part: float  # of what there is to see of all kinds, 0 to 1
+    busy: float = 1.0  # share of the drops it may have that it needs
 
 
 @lru_cache(maxsize=256)
@@ -44,7 +49,9 @@ def falls(rate: float, air: AirData, look: SnowLook) -> tuple[Fall, ...]:
         # What is half rain is snow that has half melted.
         fall = snowfall(snow_rate, 1.0 - air.snow_share, air.temperature, look.model)
         lost, law = float(snow_extinction(snow_rate)), fall.law[:4]
-        found.append(Fall(SNOW, snow_rate, law, fall.density, fall.cover, lost, 1.0))
+        # Nature has about as many flakes in light snow, but hardly any are seen: they are small.
+        busy = min((snow_rate / _HEAVY) ** 0.4, 1.0)
+        found.append(Fall(SNOW, snow_rate, law, fall.density, fall.cover, lost, 1.0, busy))
     total = sum(each.extinction for each in found)
     return tuple([each._replace(part=each.extinction / total) for each in found])
 
@@ -60,7 +67,9 @@ def shown_distance(look: DropLook, rain_rate: float, count: int) -> float:
     diameter = 1.5e-3
     width = diameter * size_factor(d, look.size_maximum) * look.width
     load = float(drop_density(rain_rate)) * look.density * 0.7854 * diameter**2
-    return _shown(look, load, width * (6.0 * look.exposure + width), look.opacity, count)
+    length = 6.0 * look.exposure
+    area = PROFILE * width * np.maximum(length, width)  # as shaders/streak.geom
+    return _shown(look, load, area, look.opacity, count)
 
 
 @lru_cache(maxsize=256)
