@@ -264,7 +264,7 @@ def test_what_is_drawn_is_what_the_vertex_shader_says(capture: StreakCapture) ->
     assert pixels.sum() == pytest.approx(ink, rel=0.03)
 
 
-@pytest.mark.parametrize("pitch", [-1.3, -0.6, 0.0, 0.9, 1.5])
+@pytest.mark.parametrize("pitch", [-1.1, 0.0, 1.5])
 @pytest.mark.parametrize("width", [5.0, 16.0])
 def test_the_picture_hides_the_drops_cross_section_from_any_side(
     capture: StreakCapture, pitch: float, width: float

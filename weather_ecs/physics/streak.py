@@ -154,7 +154,7 @@ def streaks(p: NDArray, v: NDArray, birth: NDArray, view: StreakView, law: Strea
 
 
 def drawn_area(h: NDArray, tail: NDArray, wide: NDArray, view: StreakView) -> FloatArray:
-    """Pixels that streaks take, times their profile's mean, (n,); as shaders/streak.geom draws them.
+    """Pixels that streaks take, times their profile's mean, (n,), as shaders/streak.geom has it.
 
     h (n, 2): heads in normalised device coordinates; tail (n, 4): clip space; wide: pixels.
     """
