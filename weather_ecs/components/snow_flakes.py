@@ -33,7 +33,7 @@ class SnowFlakes(Component):
     exposure: float = 1.0 / 90.0  # s, 1e-4 to 1, over which a flake in motion is drawn out
     flutter: float = 1.0  # 0 to 2, factor on how far physical flakes sway
     density: float = 5.0  # 0 to 100, factor on how much the flakes cover: 1 is what nature shows
-    brightness: float = 2.0  # 0 to 10, factor on the light of sky and ground that flakes show
+    brightness: float = 1.7  # 0 to 10, factor on the light of sky and ground that flakes show
     opacity: float = 0.9  # 0 to 1, greatest opacity of one flake
     aperture: float = 0.004  # m, 0 to 0.1, of the eye or lens that sees near flakes out of focus
     veil: float = 1.0  # 0 to 10, factor on the extinction of the snow beyond the container

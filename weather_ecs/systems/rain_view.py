@@ -158,7 +158,7 @@ class RainView:
         for k in sorted(shown, key=lambda k: (-shown[k], k)):
             count = max(settings.drops * settings.budget * shown[k] / total, 1.0)
             for fall in falls(float(rows[k]["rain_rate"]), frame.air, frame.flakes):
-                part = max(count * fall.part, 1.0)
+                part = max(count * fall.part * fall.busy, 1.0)
                 data.extend(self._data(k, rows[k], placed[k].container, fall, part, settings.drops))
         return data
 
