@@ -96,8 +96,9 @@ def _columns(data: Any, count: int) -> list[NDArray]:
         raise InvalidValueError("clouds.columns", f"{len(content)} bytes", f"{sum(sizes)} bytes")
     columns, start = [], 0
     for size, kind in zip(sizes, _TYPES, strict=True):
-        plane = np.frombuffer(content, np.uint8, size, start)
-        values = np.ascontiguousarray(plane.reshape(-1, count).T).view(kind).reshape(count)
+        planes = np.frombuffer(content, np.uint8, size, start)
+        planes = planes.reshape(np.dtype(kind).itemsize, count)
+        values = np.ascontiguousarray(planes.T).view(kind).reshape(count)
         columns.append(values.astype(np.int64))
         start += size
     return columns
