@@ -1,4 +1,4 @@
-"""How much it rains and blows now: presets that change into each other over a few seconds."""
+"""What falls and blows, in what air: presets that change into each other over a few seconds."""
 
 from __future__ import annotations
 
@@ -22,12 +22,23 @@ class Mood:
     wind_speed: float  # m/s
     overcast: float  # 0..1
     wind_heading: float  # rad, where it blows to, counter-clockwise seen from above
+    temperature: float = 15.0  # degrees Celsius
+    humidity: float = 0.8  # 0..1
+    visibility: float = 50_000.0  # m, of the air without what falls
 
 
 def preset_mood(name: str, wind_heading: float) -> Mood:
     """The mood of a preset; raises KeyError for a name that is none."""
     preset = PRESETS[name]
-    return Mood(preset.rain_rate, preset.wind_speed, preset.overcast, wind_heading)
+    return Mood(
+        preset.rain_rate,
+        preset.wind_speed,
+        preset.overcast,
+        wind_heading,
+        preset.temperature,
+        preset.humidity,
+        preset.visibility,
+    )
 
 
 def blend(before: Mood, after: Mood, share: float) -> Mood:
@@ -37,6 +48,9 @@ def blend(before: Mood, after: Mood, share: float) -> Mood:
         before.wind_speed + share * (after.wind_speed - before.wind_speed),
         before.overcast + share * (after.overcast - before.overcast),
         before.wind_heading + share * (after.wind_heading - before.wind_heading),
+        before.temperature + share * (after.temperature - before.temperature),
+        before.humidity + share * (after.humidity - before.humidity),
+        _blend_visibility(before.visibility, after.visibility, share),
     )
 
 
@@ -45,6 +59,13 @@ def _blend_rate(before: float, after: float, share: float) -> float:
         return after
     # log1p keeps the change even to the eye and reaches 0 without a jump.
     return math.expm1(math.log1p(before) + share * (math.log1p(after) - math.log1p(before)))
+
+
+def _blend_visibility(before: float, after: float, share: float) -> float:
+    """Even to the eye: by the same factor in the same time."""
+    if share >= 1.0:
+        return after
+    return math.exp(math.log(before) + share * (math.log(after) - math.log(before)))
 
 
 class MoodChanger:

@@ -94,6 +94,26 @@ def cover(clear: Light, overcast: float) -> Light:
     )
 
 
+def hide(light: Light, left: float) -> Light:
+    """The same light under fog that leaves so much of the sun's, 0 to 1: the rest comes from all
+    round.
+    """
+    if left >= 1.0:
+        return light
+    high = 0.25 * max(light.sun_direction[1], 0.0)
+    around = _mix(_mix(light.zenith_color, light.horizon_color, 0.5), light.sun_color, high)
+    grey = 0.5 * _brightness(around)
+    r, g, b = (0.5 * value + grey for value in around)
+    return Light(
+        light.sun_direction,
+        _dimmed(light.sun_color, left),
+        _mix((1.06 * r, 1.06 * g, 1.06 * b), light.zenith_color, left),
+        _mix((r, g, b), light.horizon_color, left),
+        light.ground_color,
+        light.lamps + 0.5 * (1.0 - left) * (1.0 - light.lamps),
+    )
+
+
 def shade(light: Light, rain_rate: float) -> Light:
     """The same light below the cloud that rains so many mm/h: what falls there is lit by it."""
     left = 1.0 - 0.45 * (1.0 - math.exp(-rain_rate / 4.0))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -106,7 +108,8 @@ def _state(camera: NDArray, env: Environment) -> NDArray:
     colors = (*env.sun_color, *env.zenith_color, *env.horizon_color, *env.fog_color)
     rain = [value for a in list(env.rain_areas)[:4] for value in (*a[0], 6.0 * min(a[3], 10.0))]
     rain += [0.0] * (12 - len(rain))
-    scaled = np.array([*colors, env.overcast, *env.sun_direction]) / CHANGE
+    left = math.exp(-env.fog_overhead)
+    scaled = np.array([*colors, env.overcast, left, *env.sun_direction]) / CHANGE
     return np.concatenate([scaled, np.array([*camera, *rain]) / JUMP])
 
 

@@ -2,6 +2,7 @@
 #include "frame.glsl"
 #include "sky_map.glsl"
 #include "tone.glsl"
+#include "fog_light.glsl"
 
 uniform sampler2D cloud_map;
 
@@ -104,5 +105,8 @@ void main() {
         color = mix(color, cloud.rgb, cloud.a);
     }
     color = mix(color, fog_color.rgb, exp(-max(d.y, 0.0) * 24.0) * 0.35);
+    // Fog overhead: a layer on a round Earth.
+    float up = max(d.y, 0.0);
+    color = mix(fog_light(d), color, exp(-fog_law.x * inversesqrt(up * up + fog_law.y)));
     out_color = vec4(tone(color) + (hash(gl_FragCoord.xy) - 0.5) / 255.0, 1.0);
 }

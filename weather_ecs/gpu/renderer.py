@@ -308,9 +308,10 @@ class Renderer:
             self._ripples.forget(key)
             self._clouds.forget(key)
             self._wetness.forget(key)
-            for thing in (heightmap, air):
-                if thing is not None:
-                    thing.release()
+            if heightmap is not None:
+                heightmap.release()
+            if air is not None:
+                air.release()
 
     def release(self) -> None:
         """Give back every OpenGL object, in reverse order; twice does no harm."""

@@ -17,7 +17,7 @@ LAPSE_RATE = 6.5e-3  # K/m, of the standard atmosphere's lowest 11 km (ISO 2533)
 COLDEST, WARMEST = -20.0, 50.0  # degrees Celsius, range of Stull's fit
 DRIEST, DAMPEST = 5.0, 99.0  # %, of the same
 COLD_DRY = (27.7, -2.27)  # least % at 0 degrees, and its slope: the range's edge in cold air
-CUT = 0.005  # share of rain or snow below which there is none
+CUT = 0.02  # share of rain or snow below which there is none
 
 
 def wet_bulb(temperature: ArrayLike, humidity: ArrayLike) -> FloatArray:
@@ -44,11 +44,11 @@ def wet_bulb(temperature: ArrayLike, humidity: ArrayLike) -> FloatArray:
 
 
 def snow_share(wet_bulb_temperature: ArrayLike) -> FloatArray:
-    """Share of the water that falls as snow, 0 to 1: at 0 degrees Celsius of wet bulb 0.84.
+    """Share of the water that falls as snow, 0 to 1: at 0 degrees Celsius of wet bulb 0.85.
 
     Wang et al. (2019, Geophys. Res. Lett. 46, 13825): 1 / (1 + 6.99e-5 exp(2 (T_w + 3.97))), after
     the observations of Behrangi et al. (2018): half at 0.81 degrees. Its ends are stretched so that
-    below -1.8 degrees there is snow only and above 3.5 rain only; between, both: sleet.
+    below -1.1 degrees there is snow only and above 2.8 rain only; between, both: sleet.
     """
     tw = floats("wet_bulb_temperature", wet_bulb_temperature, -200.0, 200.0)
     snow = 1.0 / (1.0 + 6.99e-5 * np.exp(2.0 * (tw + 3.97)))
@@ -79,7 +79,7 @@ def share_at(temperature: float, humidity: float) -> float:
 @lru_cache(maxsize=256)
 def _bounds(humidity: float) -> tuple[float, float]:
     """Temperatures at and below which there is snow only, at and above which rain only."""
-    t = np.linspace(-30.0, 60.0, 9001)  # a wet bulb of 3.5 degrees needs less, in the driest air
+    t = np.linspace(-30.0, 60.0, 9001)  # a wet bulb of 2.8 degrees needs less, in the driest air
     share = snow_share(wet_bulb(t, humidity))
     return float(t[share >= 1.0][-1]), float(t[share <= 0.0][0])
 
