@@ -1,226 +1,264 @@
-"""Shapes of clouds and their light: made once, shared, lit one in a frame and only when needed."""
+"""The vertex shader of the clouds against its oracle: place, growth, shear, light; and the haze."""
 
 from __future__ import annotations
 
-import math
+from typing import Any
 
-import esper
+import moderngl
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
 
-from tests.cloud_worlds import drawn, four_skies, layer, model, seconds, sky
-from tests.worlds import fresh_world
-from weather_ecs import Weather
-from weather_ecs.components import Climate, Cloud, CloudRoot, CloudSeed, SkyLayer, Sun
-from weather_ecs.physics.absorption import absorbed, path_lengths
-from weather_ecs.systems import cloud_shapes
-from weather_ecs.systems.cloud_light import light_one
-from weather_ecs.systems.cloud_shapes import TURNS, ShapeLibrary, local, turn_of
+from tests.cloud_stage import (
+    SETTINGS,
+    SIZE,
+    CloudStage,
+    cloud_stage,
+    clouds,
+    shape,
+    sky_frame,
+    view_of,
+)
+from weather_ecs.frame import CloudLook, FogData, FrameData
+from weather_ecs.gpu.cloud_pass import UNITS
+from weather_ecs.gpu.cloud_scene import surround_of
+from weather_ecs.gpu.shader_loader import ProgramKey
+from weather_ecs.gpu.view_block import encode
+from weather_ecs.physics import cloud_billboard, cloud_light
+from weather_ecs.physics.cloud_light import Body, surround
+from weather_ecs.physics.cloud_spread import Spread
 
-UP = (0.0, 1.0, 0.0)
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
-
-
-def at_angle(degrees: float) -> tuple[float, float, float]:
-    """A direction so far from straight up."""
-    return math.sin(math.radians(degrees)), math.cos(math.radians(degrees)), 0.0
-
-
-def sunny(count: int = 60, models: int = 5) -> tuple[Weather, Sun]:
-    """Clouds from twenty shapes under a sun overhead."""
-    weather, sun = Weather(), Sun(UP)
-    esper.create_entity(sun)
-    names = [f"m {number}" for number in range(models)]
-    esper.create_entity(layer((sky(0.0, count, *names),), velocity=(0.0, 0.0)))
-    drawn(weather)
-    return weather, sun
+NAMES = {"vs_lit": 3, "vs_shade": 3, "vs_rim": 3, "vs_relief": 3, "vs_fade": 4}
+KEY = ProgramKey(vertex="cloud.vert", varyings=(*NAMES, "gl_Position"))
+CENTERS = ((-90.0, 0.0, 0.0), (60.0, 20.0, 40.0), (0.0, 110.0, -30.0))
 
 
-def test_clouds_are_lit_before_they_are_first_seen():
-    weather, _ = sunny()
-    frame = drawn(weather)
-    assert len(frame.clouds) == 60
-    assert len(frame.cloud_shapes) == 20
-    for shape in frame.cloud_shapes:
-        assert shape.light == UP
-        lengths = path_lengths(shape.centers, shape.sizes, UP)
-        assert shape.absorbed == pytest.approx(absorbed(lengths, shape.penetration), abs=1e-6)
-        assert shape.absorbed.max() > 0.1
-        assert not shape.absorbed.flags.writeable
+def captured(stage: CloudStage, frame: FrameData, **camera: Any) -> dict[str, NDArray[np.float32]]:
+    """What the vertex shader makes of the first cloud's billboards, in the shape's own order."""
+    passes = stage.passes
+    passes.impostors_on = False
+    stage.draw(frame, **camera)
+    view = view_of(frame, **camera)
+    guard = stage.renderer._guard
+    with guard:
+        passes.update(view, SETTINGS, SIZE[1])
+        program = passes._shaders.program(KEY)
+        for name, unit in UNITS.items():
+            if name in program:
+                program[name] = unit
+        program["cloud_first"] = 0
+        program["cloud_hazed"] = 1.0
+        # Places come out as they are, but for their depth.
+        program["cloud_matrix"].write(np.eye(4, dtype=np.float32).tobytes())
+        count = int(passes._begins[1])
+        width = sum(NAMES.values()) + 4
+        buffer = stage.ctx.buffer(reserve=count * 4 * width * 4)
+        array = stage.ctx.vertex_array(program, [])
+        array.transform(buffer, moderngl.POINTS, vertices=4, instances=count)
+        rows = np.frombuffer(buffer.read(), np.float32).reshape(count, 4, width)
+        array.release()
+        buffer.release()
+        pairs = np.frombuffer(passes._stream.texture.read(), np.uint32).reshape(-1, 2)
+    back = np.argsort(pairs[:count, 0])
+    found, at = {}, 0
+    for name, size in (*NAMES.items(), ("place", 4)):
+        found[name] = rows[back][..., at : at + size]
+        at += size
+    return found
 
 
-def test_as_long_as_the_light_stands_nothing_is_computed():
-    weather, sun = sunny()
-    before = drawn(weather).cloud_shapes
-    for _ in range(30):
-        esper.process(0.05)
-        assert weather.stats.cfa_computed == 0
-    sun.direction = at_angle(1.0)  # less than the angle that counts
-    for _ in range(5):
-        esper.process(0.05)
-        assert weather.stats.cfa_computed == 0
-    assert drawn(weather).cloud_shapes is before
+@pytest.fixture
+def scene() -> dict[str, Any]:
+    return {
+        "position": (40.0, 300.0, -700.0), "scale": 1.3, "mirror": -1.0, "heading": 0.7,
+        "shear": (0.3, -0.2), "growth": 0.45, "mode": 0.25, "opacity": 0.8, "darkness": 0.4,
+        "flash": 0.3,
+    }  # fmt: skip
 
 
-@pytest.mark.parametrize("count", [30, 600])
-def test_when_it_has_moved_one_cloud_a_frame_each_once(count):
-    weather, sun = sunny(count)
-    before = drawn(weather).cloud_shapes
-    sun.direction = at_angle(30.0)
-    changed = []
-    for _ in range(20):
-        esper.process(0.05)
-        assert weather.stats.cfa_computed == 1
-        after = drawn(weather).cloud_shapes
-        pairs = zip(before, after, strict=True)
-        [which] = [k for k, (one, other) in enumerate(pairs) if one is not other]
-        assert after[which].key == before[which].key
-        assert after[which].billboards is before[which].billboards
-        changed.append(which)
-        before = after
-    assert sorted(changed) == list(range(20))
-    esper.process(0.05)
-    assert weather.stats.cfa_computed == 0
-    for shape in before:
-        lengths = path_lengths(shape.centers, shape.sizes, at_angle(30.0))
-        assert shape.absorbed == pytest.approx(absorbed(lengths, shape.penetration), abs=1e-6)
+def expected_places(data: Any, row: dict[str, Any]) -> tuple[NDArray, NDArray, NDArray]:
+    """Middles from the cloud's centre, corners from the camera, what is there of each."""
+    b = data.billboards
+    there = cloud_billboard.presence(row["growth"], row["mode"], b["order"])
+    middle = cloud_billboard.place(
+        b["position"].astype(float), row["scale"], row["mirror"], row["heading"], row["shear"]
+    )
+    at = middle + np.array(row["position"]) - (0.0, 2.0, 0.0)
+    size = cloud_billboard.shown_size(b["size"].astype(float), row["scale"], there)
+    offsets = cloud_billboard.corners(
+        at, size, b["turn"].astype(float), row["mirror"], row["heading"]
+    )
+    return middle, at[:, None] + offsets, there
 
 
-def test_under_a_sun_that_never_stops_all_take_turns():
-    weather, sun = sunny()
-    lit: dict[int, int] = {}
-    before = drawn(weather).cloud_shapes
-    for frame in range(200):
-        sun.direction = at_angle(0.4 * (frame + 6))
-        esper.process(0.05)
-        assert weather.stats.cfa_computed <= 1
-        after = drawn(weather).cloud_shapes
-        for one, other in zip(before, after, strict=True):
-            lit[one.key] = lit.get(one.key, 0) + (one is not other)
-        before = after
-    assert len(lit) == 20
-    assert max(lit.values()) - min(lit.values()) <= 1
+def test_places_growth_and_shear_are_the_oracle_s(
+    ctx: moderngl.Context, scene: dict[str, Any]
+) -> None:
+    data = shape(centers=CENTERS, billboards=8)
+    with cloud_stage(ctx) as stage:
+        found = captured(stage, sky_frame(clouds(scene), data))
+    _, corners, there = expected_places(data, scene)
+    shown = there > 0.01
+    assert 3 < shown.sum() < len(there)
+    np.testing.assert_allclose(found["place"][shown][..., :2], corners[shown][..., :2], atol=0.02)
+    away = np.linalg.norm(corners.mean(axis=1), axis=1)
+    size = cloud_billboard.shown_size(data.billboards["size"].astype(float), 1.3, there)
+    near = cloud_billboard.near_share(away, size[:, 0])
+    wanted = there * near * scene["opacity"]
+    np.testing.assert_allclose(found["vs_fade"][:, 0, 0], wanted, atol=2e-3)
+    # What is not there is nowhere in the picture.
+    assert (found["place"][there < 0.001][..., 2] == 2.0).all()
 
 
-def test_clouds_that_come_later_wait_until_they_are_lit():
-    weather, _ = sunny()
-    esper.process(0.05)
-    [(_, sky_layer)] = esper.get_component(SkyLayer)
-    sky_layer.skies = (sky_layer.skies[0], sky(1.0, 60, "n 1", "n 2"))
-    sky_layer.velocity = (40.0, 0.0)
-    esper.create_entity(Climate(duration=1e-9))
-    seen: set[int] = {shape.key for shape in drawn(weather).cloud_shapes}
-    for _ in range(60):
-        esper.process(0.5)
-        assert weather.stats.cfa_computed <= 1
-        frame = drawn(weather)
-        new = [shape for shape in frame.cloud_shapes if shape.key not in seen]
-        assert len(new) <= 1
-        for shape in new:
-            assert shape.light == UP
-            seen.add(shape.key)
-        assert frame.clouds["shape"].max() < len(frame.cloud_shapes)
-    assert len(seen) > 24
+def test_the_plain_light_is_the_dissertation_s(
+    ctx: moderngl.Context, scene: dict[str, Any]
+) -> None:
+    lost = (0.1, 0.45, 0.9)
+    data = shape(centers=CENTERS, billboards=8, absorbed=lost)
+    look = CloudLook(plain=True, ambient=0.8)
+    frame = sky_frame(clouds({**scene, "growth": 1.0}), data, cloud_look=look)
+    with cloud_stage(ctx) as stage:
+        found = captured(stage, frame)
+    _, corners, _ = expected_places(data, {**scene, "growth": 1.0})
+    v = corners - (np.array(scene["position"]) - (0.0, 2.0, 0.0))
+    light = surround_of(view_of(frame))
+    a = np.array(lost)[data.billboards["seed"]][:, None] * np.ones(4)
+    wanted = cloud_light.plain_light(v, a, light.direction, light.sun, 0.8 * light.plain)
+    np.testing.assert_allclose(found["vs_lit"], encode(wanted), atol=2e-4)
+    np.testing.assert_allclose(found["vs_shade"], found["vs_lit"])
+    assert not found["vs_rim"].any()
+    assert not found["vs_relief"].any()
 
 
-def test_a_server_lights_nothing():
-    weather = Weather()
-    esper.create_entity(layer(four_skies()))
-    seconds(5.0)
-    assert len(weather._frame().clouds) == 0
-    assert len(weather._state.cloud_shapes) == 0
-    assert weather.stats.cfa_computed == 0
-    assert weather.stats.clouds == 40
+def test_the_full_light_is_the_oracle_s(ctx: moderngl.Context, scene: dict[str, Any]) -> None:
+    data = shape(centers=CENTERS, billboards=8, absorbed=(0.1, 0.45, 0.9))
+    row = {**scene, "growth": 1.0}
+    look = CloudLook(silver=0.7, base=0.9, ambient=1.1)
+    frame = sky_frame(clouds(row), data, cloud_look=look)
+    with cloud_stage(ctx) as stage:
+        found = captured(stage, frame)
+        stored = stage.passes.store.shapes[0]
+    middle, corners, _ = expected_places(data, row)
+    v = corners - (np.array(row["position"]) - (0.0, 2.0, 0.0))
+    w = corners / np.linalg.norm(corners, axis=-1, keepdims=True)
+    spread = Spread.over(
+        data.billboards["position"], data.billboards["seed"], data.centers, data.sizes
+    )
+    field = spread.field(data.absorbed).astype(float)
+    offset = v - middle[:, None]
+    h, m = row["heading"], row["mirror"]
+    own = (
+        np.stack(
+            [
+                (offset[..., 0] * np.cos(h) - offset[..., 2] * np.sin(h)) * m,
+                offset[..., 1],
+                offset[..., 2] * np.cos(h) + offset[..., 0] * np.sin(h),
+            ],
+            axis=-1,
+        )
+        / row["scale"]
+    )
+    a = np.clip(field[:, None, 0] + (field[:, None, 1:] * own).sum(-1), 0.0, 1.0)
+    s = cloud_billboard.place(spread.centers.astype(float), row["scale"], m, h, row["shear"])[
+        :, None
+    ]
+    half = stored.half * row["scale"]
+    lean = np.hypot(*row["shear"])
+    half = np.array([half[0] + lean * half[1], half[1], half[2] + lean * half[1]])
+    half[[0, 2]] = max(half[0], half[2])
+    body = Body(half, stored.base * row["scale"], 0.4, 0.3, 1.0 / (400.0 * row["scale"]))
+    lit = cloud_light.full_light(v, s, w, a, body, surround_of(view_of(frame)), (0.7, 0.9, 1.1))
+    np.testing.assert_allclose(found["vs_lit"], encode(lit.lit), atol=2e-3)
+    np.testing.assert_allclose(found["vs_shade"], encode(lit.shade), atol=2e-3)
+    np.testing.assert_allclose(found["vs_rim"], lit.rim, atol=2e-3)
+    np.testing.assert_allclose(found["vs_fade"][..., 3], lit.facing, atol=2e-3)
+    np.testing.assert_allclose(found["vs_relief"][..., 2], lit.soft, atol=2e-3)
 
 
-@pytest.mark.parametrize("direction", [(0, -1, 0), (1, 0, 0), (0.3, -0.01, 0.95)])
-def test_a_sun_at_the_horizon_and_below_breaks_nothing(direction):
-    weather, sun = sunny(20)
-    sun.direction = direction
-    seconds(1.5, 0.05)
-    for shape in drawn(weather).cloud_shapes:
-        assert shape.light == pytest.approx(sun.direction)
-        assert ((shape.absorbed >= 0.0) & (shape.absorbed <= 1.0)).all()
+def test_growth_0_is_nothing_and_1_is_all_from_either_side() -> None:
+    order = np.linspace(0.0, 1.0, 50)
+    for mode in (0.0, 0.3, 1.0):
+        assert not cloud_billboard.presence(0.0, mode, order).any()
+        assert (cloud_billboard.presence(1.0, mode, order) == 1.0).all()
+    half = cloud_billboard.presence(0.5, 0.0, order)
+    assert half[0] == 1.0
+    assert half[-1] == 0.0
+    np.testing.assert_allclose(cloud_billboard.presence(0.5, 1.0, order), half[::-1], atol=1e-12)
 
 
-def test_a_cloud_that_is_turned_is_lit_as_it_stands():
-    weather, light = Weather(), (0.6, 0.0, 0.8)
-    esper.create_entity(Sun(light))
-    flat = model("flat")
-    esper.create_entity(Cloud(flat, (0, 1000, 0)))
-    esper.create_entity(Cloud(flat, (0, 1000, 0), heading=0.5 * math.pi))
-    esper.create_entity(Cloud(flat, (0, 1000, 0), heading=0.02))
-    frame = drawn(weather)
-    assert len(frame.cloud_shapes) == 2  # a little turn is not worth another light
-    turned = frame.cloud_shapes[frame.clouds["shape"][1]]
-    # A quarter counter-clockwise from above takes +x to -z: turn the boxes and ask again.
-    centers, sizes = (np.array(a[:, [2, 1, 0]]) for a in (turned.centers, turned.sizes))
-    centers[:, 2] *= -1.0
-    lengths = path_lengths(centers, sizes, light)
-    assert turned.absorbed == pytest.approx(absorbed(lengths, turned.penetration), abs=1e-5)
-    assert turned.light == light
+@given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 0.2))
+def test_a_billboard_never_goes_while_the_cloud_grows(
+    growth: float, mode: float, order: float, more: float
+) -> None:
+    now = cloud_billboard.presence(growth, mode, order)
+    assert 0.0 <= now <= cloud_billboard.presence(min(growth + more, 1.0), mode, order) <= 1.0
 
 
-def test_headings_go_to_the_nearest_turn():
-    step = 2.0 * math.pi / TURNS
-    assert [turn_of(k * step + 0.4 * step) for k in range(TURNS)] == list(range(TURNS))
-    assert turn_of(-step) == TURNS - 1
-    assert local(UP, 5) == UP
-    assert local((1.0, 0.0, 0.0), TURNS // 4) == pytest.approx((0.0, 0.0, 1.0))
+def test_light_is_less_the_more_is_absorbed_and_the_base_is_dark() -> None:
+    light = surround((0.0, 0.8, 0.6), (1, 0.95, 0.9), (0.2, 0.3, 0.6), (0.5, 0.6, 0.7), (0.2,) * 3)
+    body = Body(np.array([500.0, 200.0, 500.0]), -190.0)
+    w = np.array([[1.0, 0.0, 0.0]] * 2)
+    v = np.array([[0.0, 150.0, 0.0], [0.0, -150.0, 0.0]])
+    s = 0.3 * v
+    none, half, all_ = (
+        cloud_light.full_light(v, s, w, np.full(2, a), body, light) for a in (0.0, 0.5, 1.0)
+    )
+    for more, less in ((none, half), (half, all_)):
+        assert (more.lit > less.lit).all()
+        assert (more.facing >= less.facing).all()
+    assert (none.lit[0] > none.lit[1]).all()
+    assert none.facing[0] > 0.8 > 0.4 > none.facing[1]
+    dark = cloud_light.full_light(
+        v, s, w, np.full(2, 0.5), Body(body.half_size, -190.0, 1.0), light
+    )
+    assert (dark.lit[1] < 0.7 * half.lit[1]).all()
 
 
-def test_the_same_model_and_number_are_made_once_and_others_are_others():
-    library = ShapeLibrary()
-    one, twin = model("one"), model("one")
-    first = library.get(one, 3)
-    assert library.get(one, 3) is first
-    assert library.get(twin, 3) is first  # the same content
-    assert library.get(one, 4) is not first
-    assert library.get(one, 3, 6).made is first.made
-    one.seeds[0].width = 300.0
-    assert library.get(one, 3) is not first
-    assert library.get(twin, 3) is first
-    assert library.get(one, 3).made.sizes.max() == 300.0
+def test_the_lining_is_towards_the_sun_and_at_the_rim() -> None:
+    light = surround((0.0, 0.0, -1.0), (1, 1, 1), (0.2, 0.3, 0.6), (0.5, 0.6, 0.7), (0.2,) * 3)
+    body = Body(np.array([500.0, 300.0, 500.0]), -300.0)
+    v = np.array([[0.0, 290.0, 0.0], [0.0, 10.0, 0.0]])
+
+    def rim(z: float) -> NDArray:
+        w = np.array([[0.0, 0.0, z]] * 2)
+        return cloud_light.full_light(v, 0.0 * v, w, np.zeros(2), body, light).rim[:, 0]
+
+    against, with_it = rim(-1.0), rim(1.0)
+    assert against[0] > 5.0 * against[1] > 0.0
+    assert against[0] > 20.0 * with_it[0]
 
 
-def test_what_no_cloud_stands_with_any_more_is_forgotten():
-    library = ShapeLibrary()
-    kept = [library.get(model("kept"), number) for number in range(20)]
-    for number in range(200):
-        library.get(model("other"), number)
-    library.prune({shape.key for shape in kept})
-    assert len(library) == 20 + cloud_shapes.SPARE
-    assert all(library.get(model("kept"), number) is shape for number, shape in enumerate(kept))
-    assert library.unlit() is kept[0]
+def test_haze_thins_with_height_and_grows_with_distance() -> None:
+    def share(x: float, y: float, extinction: float = cloud_light.CLEAN) -> float:
+        return float(cloud_light.haze_share(np.array([[x, y, 0.0]]), 2.0, extinction)[0])
+
+    # Level at the ground it is Beer and Lambert's law itself.
+    assert share(10_000.0, 0.0) == pytest.approx(1.0 - np.exp(-3.912 / 5.0), rel=1e-2)
+    assert share(1000.0, 0.0) < share(10_000.0, 0.0) < share(60_000.0, 0.0) < 1.0
+    assert share(20_000.0, 8_000.0) < 0.7 * share(20_000.0, 500.0)
+    # Fog hides what is level, and far less of what is overhead.
+    assert share(3000.0, 0.0, 0.01) > 0.99
+    assert share(0.0, 3000.0, 0.01) < 0.85
+    # Against sampling along the way.
+    t = (np.arange(20_000) + 0.5) / 20_000
+    for x, y in ((9000.0, 2500.0), (40_000.0, 900.0)):
+        h = 2.0 + t * y
+        depth = (cloud_light.CLEAN * np.exp(-h / cloud_light.CLEAN_HEIGHT)).mean() * np.hypot(x, y)
+        assert share(x, y) == pytest.approx(1.0 - np.exp(-depth), rel=1e-3)
 
 
-def test_large_clouds_are_lit_in_parts_that_make_the_same_whole(monkeypatch):
-    root = CloudRoot(reproductions_min=4, reproductions_max=4, seeds_start=100, seeds_end=100)
-    large = model("large")
-    large.seeds = (CloudSeed(width=50, height=50, depth=50, roots=(root,)),)
-    library = ShapeLibrary()
-    shape = library.get(large, 0)
-    count = len(shape.made.centers)
-    assert count == 401
-    library.light_new(shape, UP)
-    tilted, parts = at_angle(40.0), 0
-    while light_one(library, tilted):
-        parts += 1
-        assert (shape.target is None) == (shape.data.light == tilted)
-    assert parts == math.ceil(count / (cloud_shapes.PAIRS // count))
-    whole = path_lengths(shape.made.centers, shape.made.sizes, tilted)
-    assert shape.data.absorbed == pytest.approx(absorbed(whole, large.light_penetration), abs=1e-6)
-    monkeypatch.setattr(cloud_shapes, "AT_ONCE", 100)
-    huge = library.get(large, 1)
-    library.light_new(huge, UP)  # by its outline: brighter above than below
-    height = huge.made.centers[:, 1]
-    lit = huge.data.absorbed
-    assert lit[height > 50.0].mean() < 0.4 < 0.6 < lit[height < -50.0].mean()
-    while light_one(library, UP):
-        pass
-    assert huge.data.light == UP
+def test_the_plain_model_has_no_haze(ctx: moderngl.Context) -> None:
+    data = shape(billboards=12, absorbed=0.0)
+    far = clouds({"position": (0.0, 40.0, -900.0)})
+    fog = FogData(extinction=0.01)
+    with cloud_stage(ctx) as stage:
+        stage.passes.impostors_on = False
+        plain = [
+            stage.draw(sky_frame(far, data, fog=f, cloud_look=CloudLook(plain=True)))
+            for f in (FogData(), fog)
+        ]
+        hazy = stage.draw(sky_frame(far, data, fog=fog))
+    np.testing.assert_array_equal(plain[0], plain[1])
+    assert np.abs(hazy - plain[0]).max() > 0.05

@@ -17,7 +17,7 @@ from weather_ecs.gpu.cloud_store import CloudStore
 from weather_ecs.gpu.cloud_stream import CloudStream
 from weather_ecs.gpu.row_texture import RowTexture
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
-from weather_ecs.physics.cloud_light import smoothstep
+from weather_ecs.physics.cloud_billboard import smoothstep
 
 PAINT = ProgramKey(vertex="cloud_shadow.vert", fragment="cloud_shadow.frag")
 SIZE = 256  # texels on a side
@@ -46,8 +46,10 @@ class ShadowMap:
 
     def release(self) -> None:
         self.shown.release()
-        for thing in (*self.targets, *self.textures):
-            thing.release()
+        for target in self.targets:
+            target.release()
+        for texture in self.textures:
+            texture.release()
 
 
 class CloudShadowPass:

@@ -94,7 +94,7 @@ class CloudStream:
 
 
 def eye_in_shape(center: NDArray, cloud: NDArray) -> NDArray[np.float64]:
-    """The camera in a shape's own axes, m; the inverse of physics/cloud_light.place."""
+    """The camera in a shape's own axes, m; the inverse of physics/cloud_billboard.place."""
     x, y, z = (-float(c) for c in center)
     x -= float(cloud["shear"][0]) * y
     z -= float(cloud["shear"][1]) * y

@@ -1,4 +1,4 @@
-"""Clouds' place, growth and light, as shaders/cloud_row.glsl and shaders/cloud_light.glsl have it.
+"""The light of clouds, as shaders/cloud_light.glsl has it, and the haze before them.
 
 Notation: v vertex from the cloud's centre, world axes, m; s the centre of its seed from there;
 n unit normal; w unit, from the camera to the vertex; L unit, towards the sun; a what the seed's
@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from weather_ecs.physics.cloud_billboard import smoothstep
 from weather_ecs.physics.optics import CLEAR
 
 Array = NDArray[np.float64]
@@ -20,31 +21,6 @@ Array = NDArray[np.float64]
 CLEAN = CLEAR  # 1/m, extinction of clean air at the ground
 CLEAN_HEIGHT = 2000.0  # m, over which clean air's haze thins by a factor e
 FOG_HEIGHT = 150.0  # m, the same of what fog and rain add to it
-FADE = 0.3  # of the growth, over which one billboard comes or goes
-
-
-def smoothstep(low: float, high: float, value: ArrayLike) -> Array:
-    t = np.clip((np.asarray(value, np.float64) - low) / (high - low), 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
-
-
-def presence(growth: ArrayLike, mode: ArrayLike, order: ArrayLike) -> Array:
-    """0 to 1: how much of a billboard is there; growth 0: nothing, 1: all.
-
-    mode 0: the highest orders go first when it dissolves, from the rim; 1: the lowest, the core.
-    """
-    mode, order = np.asarray(mode), np.asarray(order)
-    turn = order * (1.0 - mode) + (1.0 - order) * mode
-    return smoothstep(0.0, 1.0, (np.asarray(growth) * (1.0 + FADE) - turn) / FADE)
-
-
-def place(
-    p: Array, scale: float, mirror: float, heading: float, shear: tuple[float, float]
-) -> Array:
-    """A place of the shape in the cloud, m from its centre: scaled, mirrored, turned, leant."""
-    c, s = np.cos(heading), np.sin(heading)
-    x, y, z = (p[..., 0] * scale * mirror, p[..., 1] * scale, p[..., 2] * scale)
-    return np.stack([x * c + z * s + shear[0] * y, y, z * c - x * s + shear[1] * y], axis=-1)
 
 
 def plain_light(v: Array, a: Array, L: Array, sun: Array, ambient: Array) -> Array:

@@ -7,7 +7,7 @@ in vec3 vs_uv;
 in vec3 vs_lit;
 in vec3 vs_shade;
 in vec3 vs_rim;
-flat in vec3 vs_relief;
+in vec3 vs_relief;
 in vec4 vs_fade;
 flat in vec4 vs_haze;
 out vec4 color;

@@ -11,7 +11,7 @@ out vec3 vs_uv;
 out vec3 vs_lit;
 out vec3 vs_shade;
 out vec3 vs_rim;
-flat out vec3 vs_relief;  // the sun's direction in the image's axes; softness of the outline
+out vec3 vs_relief;  // the sun in the image's axes times its relief; softness of the outline
 out vec4 vs_fade;  // opacity, height over the base, depth over which it fades, facing
 flat out vec4 vs_haze;
 

@@ -84,7 +84,7 @@ vec3 to_shape(Cloud cloud, vec3 v)
     return v / cloud.scale;
 }
 
-// A place of the shape in the cloud, from the cloud's centre; as physics/cloud_light.place.
+// A place of the shape in the cloud, from the cloud's centre; as physics/cloud_billboard.place.
 vec3 place_in_cloud(Cloud cloud, vec3 p)
 {
     p *= cloud.scale;
@@ -94,7 +94,7 @@ vec3 place_in_cloud(Cloud cloud, vec3 p)
     return p;
 }
 
-// 0 to 1: how much of a billboard is there; as physics/cloud_light.presence.
+// 0 to 1: how much of a billboard is there; as physics/cloud_billboard.presence.
 float presence(Cloud cloud, float order)
 {
     float turn = mix(order, 1.0 - order, cloud.mode);
