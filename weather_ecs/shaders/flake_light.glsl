@@ -13,7 +13,7 @@ vec3 flake_light(vec3 p, vec3 ray)
         float fade = max(1.0 - r2 / (light_position[i].w * light_position[i].w), 0.0);
         if (fade > 0.0) {
             float forward = 0.6 + 0.4 * max(dot(ray, away * inversesqrt(r2)), 0.0);
-            light += light_color[i].rgb * (fade * fade * forward / (1.0 + 0.5 * r2));
+            light += light_color[i].rgb * (2.5 * fade * fade * forward / (1.0 + 0.5 * r2));
         }
     }
     return light;
