@@ -13,7 +13,7 @@ from weather_ecs.gpu.compute_order import ComputeOrder
 from weather_ecs.gpu.drop_set import DropSet
 from weather_ecs.gpu.impact_list import ImpactList
 from weather_ecs.gpu.kind_programs import SHELTER_UNIT as SHELTER_UNIT
-from weather_ecs.gpu.kind_programs import KindPrograms
+from weather_ecs.gpu.kind_programs import KindPrograms, step_name
 from weather_ecs.gpu.rain_blocks import RAIN_DRAW, RAIN_STEP
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.streak_list import CULL, StreakList
@@ -73,6 +73,7 @@ class RainPass:
         self._cull = shaders.program(CULL) if self._lists else None
         self._step_block = BlockBuffer(ctx, RAIN_STEP)
         self._air = AirBlock(ctx)
+        self._steady = False  # the air of this draw
         self._draw_block = BlockBuffer(ctx, RAIN_DRAW)
 
     def add_reader(self, name: str, program: moderngl.Program) -> None:
@@ -120,7 +121,7 @@ class RainPass:
             seen.impacts.begin_frame()
         self._step_block.bind()
         self._draw_block.bind()
-        self._air.use(view)
+        self._steady = self._air.use(view)
         for container in view.containers:
             drops = self._drops(seen, container)
             drops.last_used = self._draws
@@ -171,7 +172,7 @@ class RainPass:
         data["rain_time"] = view.frame.time
         data["impact_capacity"] = impacts.capacity if impacts is not None else 0
         self._step_block.upload()
-        kind = self._kind(container.kind)
+        kind, step = self._kind(container.kind), step_name(sheltered, self._steady)
         kind.use(container, view)
         if self._lists:
             drops.births.bind_to_storage_buffer(0)
@@ -179,16 +180,14 @@ class RainPass:
             lists = impacts if sheltered and container.kind != SNOW else None
             if lists is not None:
                 lists.begin_step()
-            kind.steps[sheltered].run((count + GROUP - 1) // GROUP)
+            kind.steps[step].run((count + GROUP - 1) // GROUP)
             if lists is not None:
                 self._order.after(_LISTED)
                 lists.find(self._find)
             self._order.after(_MOVED)
         else:
             following = 1 - drops.current
-            drops.array("sheltered step" if sheltered else "step").transform(
-                drops.states[following], moderngl.POINTS, vertices=count
-            )
+            drops.array(step).transform(drops.states[following], moderngl.POINTS, vertices=count)
             drops.current = following
         drops.alive = count
         return count

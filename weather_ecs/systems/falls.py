@@ -16,7 +16,6 @@ from weather_ecs.physics.snow import snow_extinction
 from weather_ecs.physics.snowfall import snowfall
 from weather_ecs.physics.streak import PROFILE
 
-
 _HEAVY = 2.5  # mm/h of water, from which snow is heavy
 
 
