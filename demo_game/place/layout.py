@@ -22,6 +22,8 @@ MAILBOX = (-25.0, -160.0)
 BENCH, BENCH_FACING = (-6.4, -50.2), 1.1  # (x, z); rad about +y
 WOODPILE = (2.65, -62.4)
 FLAG = (1.6, -57.8)
+# Where one stands to look along the sight posts, and their bearing from north over east, rad.
+SIGHT_FROM, SIGHT_BEARING = (0.0, 88.0), 5.515
 
 LAMPS = [
     (2.6, 61.0), (-1.6, 41.0), (1.3, 17.0), (-3.2, -4.0), (2.8, -27.0), (-3.4, -47.5),

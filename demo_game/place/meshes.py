@@ -18,6 +18,7 @@ from . import (
     flag,
     layout,
     props,
+    sight_posts,
     windmill,
 )
 from .cabin_solid import Block
@@ -82,6 +83,9 @@ def open_meshes(
     x, z = layout.FLAG
     flag.pole(yard, x, height(x, z), z)
     yield "yard", yard.build()
+    row = Builder(29)
+    sight_posts.posts(row, height)
+    yield "sight_posts", row.build()
     stones = []
     for k, (x, y, z, size, turn) in enumerate(rocks):
         shape = rock(300 + k % 5, 2 if size > BIG_ROCK else 1)

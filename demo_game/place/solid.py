@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from demo_game.collision import Box, Post
 
-from . import flag, layout, windmill
+from . import flag, layout, sight_posts, windmill
 from .cabin_solid import Block
 from .layout import BIRCH, BUSH, CONIFER
 from .scatter import VARIANTS, Trees
@@ -65,6 +65,8 @@ def single_posts(
 
     for x, z in layout.LAMPS:
         put(x, z, 0.12, 3.6)
+    for x, z in sight_posts.feet().tolist():
+        put(x, z, 0.3, sight_posts.TALL)
     put(*layout.MAILBOX, 0.16, 1.4)
     put(*layout.FLAG, 0.08, flag.TALL)
     put(*layout.WINDMILL, windmill.radius_at(0.5), windmill.HEIGHT)
