@@ -27,6 +27,11 @@ def cloud_model(name: str) -> CloudModel:
         return load_cloud_model(path)
 
 
+def find_model(name: str) -> CloudModel | None:
+    """The package's model of this name, if there is one."""
+    return cloud_model(name) if name in CLOUD_MODELS else None
+
+
 def sky(name: str, to: str | None = None, duration: float = 600.0) -> CloudFile:
     """Layers from high to low, with a climate that stands at the sky of this name.
 

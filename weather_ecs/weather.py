@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 import esper
 
 from weather_ecs import cloud_world, snapshot
-from weather_ecs.cloud_files import load_clouds, save_clouds
+from weather_ecs.cloud_files import CloudFile, load_clouds, save_clouds
+from weather_ecs.cloud_presets import find_model
 from weather_ecs.components import Cloud, Observer, Occluder, RainGauge, RippleSurface
 from weather_ecs.components._base import FAR, integer, vector
 from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, WeatherError
@@ -26,6 +27,7 @@ from weather_ecs.sampling import Sample, SampleField
 from weather_ecs.stats import Stats
 from weather_ecs.systems import ExtractSystem, WeatherProcessor, WeatherState, scheduled
 from weather_ecs.systems.climate import oldest_state
+from weather_ecs.systems.cloud_models import ModelBook
 from weather_ecs.systems.cloud_rain import remove_all
 from weather_ecs.systems.gauge import GaugeBoard
 from weather_ecs.systems.queries import in_world, living
@@ -71,7 +73,7 @@ class Weather:
         self._closed = True  # until everything stands, there is nothing to close
         if not isinstance(backend, str) or backend not in BACKENDS:
             raise InvalidValueError("backend", backend, ", ".join(BACKENDS))
-        self._state = WeatherState(_check_seed("seed", seed))
+        self._state = WeatherState(_check_seed("seed", seed), ModelBook(find_model))
         self._settings: QualitySettings = settings_for(quality)
         self._auto = AutoQuality()
         if esper.get_processor(WeatherProcessor) is not None:
@@ -186,7 +188,16 @@ class Weather:
         nothing, for a file that is not good from end to end.
         """
         self._check_open()
-        content = load_clouds(path)
+        return self.add(load_clouds(path))
+
+    def add(self, content: CloudFile) -> tuple[int, ...]:
+        """Add what a file would hold, such as `presets.sky("storm")`; returns the entities.
+
+        A model takes the place of one of the same name. Raises InvalidValueError for anything else.
+        """
+        self._check_open()
+        if not isinstance(content, CloudFile):
+            raise InvalidValueError("content", content, "a CloudFile, as of presets.sky")
         with in_world(self._world):
             return cloud_world.add(content)
 

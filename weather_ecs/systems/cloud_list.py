@@ -127,8 +127,9 @@ class CloudList:
         models = state.models.of_skies(layer.skies, state.uids)
         before, rows = seen.view.shapes, seen.last()
         wanted = seen.view.build(record, layer, models, library)
-        if wanted and 2 * len(seen.view.rows) < len(record.array):
-            # The start, or other skies: clouds that come in one by one can wait, these not.
+        edited = seen.state[2:3] != now[2:3]
+        if wanted and (edited or 2 * len(seen.view.rows) < len(record.array)):
+            # The start, or other skies or models: clouds that come in one by one can wait.
             for shape in wanted:
                 library.light_new(shape, sky.sun_direction)
             wanted = seen.view.build(record, layer, models, library)
@@ -137,12 +138,11 @@ class CloudList:
         self._changed = True
 
     def _take_made(self, state: WeatherState, sky: SkyLight, profile: WindProfile) -> None:
-        """The game's own clouds; all are lit at once where none has been before."""
+        """The game's own clouds; all are lit at once at the start and where a model has changed."""
         made, library = self._made, state.cloud_shapes
-        first = not made.shapes
         if not made.collect(state.models, library, state.uids, profile):
             return
-        if first and made.wanted:
+        if made.wanted and (made.edited or not made.shapes):
             for shape in made.wanted:
                 if shape.data is None:
                     library.light_new(shape, sky.sun_direction)

@@ -34,6 +34,7 @@ class MadeClouds:
     def __init__(self) -> None:
         self.shapes: list[Shape] = []  # that the rows' indices mean
         self.wanted: list[Shape] = []  # that have not been lit
+        self.edited = False  # a model has changed since the last time
         self._own = np.zeros((0, 2))  # m/s, (x, z)
         self._share = np.zeros((0, 1))  # of the wind
         self._rows = np.zeros(0, CLOUD_DTYPE)
@@ -51,6 +52,7 @@ class MadeClouds:
         same = pairs is self._list and seen == self._seen
         if same and all(map(esper.entity_exists, self._entities)):
             return False
+        self.edited = seen[1:2] != self._seen[1:2]
         self._list, self._seen = pairs, seen
         found = alive(Cloud, uids)
         self._entities = [pair[0] for pair in pairs if esper.entity_exists(pair[0])]

@@ -35,7 +35,7 @@ class WeatherState:
         "wind",
     )
 
-    def __init__(self, seed: int) -> None:
+    def __init__(self, seed: int, models: ModelBook | None = None) -> None:
         self.seed = seed
         self.rng = np.random.Generator(np.random.PCG64(seed))  # the only source of chance
         self.clock = Clock()
@@ -48,7 +48,7 @@ class WeatherState:
         self.wind = (0.0, 0.0, 0.0)  # m/s, world axes, at the reference height; of WindSystem
         self.profile = WindProfile()  # how that varies with height
         # What follows from all that, or is the same for good.
-        self.models = ModelBook()
+        self.models = models or ModelBook()
         self.cloud_shapes = ShapeLibrary()
         self.drawn = False  # somebody draws this weather, and needs what only pictures show
 
