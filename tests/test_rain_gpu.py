@@ -13,6 +13,7 @@ import pytest
 from tests.views import look_from, perspective
 from weather_ecs.frame import AREA_DTYPE, DropLook, FrameData, WindProfile
 from weather_ecs.gpu.air_block import flow_of
+from weather_ecs.gpu.air_block import is_steady
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.heightmap import Footprint
 from weather_ecs.gpu.rain_blocks import SHELTER
@@ -21,6 +22,7 @@ from weather_ecs.gpu.shader_loader import ShaderLoader
 from weather_ecs.physics import rain_step
 from weather_ecs.physics.camera import camera_from
 from weather_ecs.physics.shelter import ShelterMap
+from weather_ecs.physics.turbulence import AirFlow, air_flow
 from weather_ecs.systems.rain_view import RainView
 
 # Without a complete framebuffer some drivers write nothing in transform feedback.
@@ -154,6 +156,18 @@ def test_backends_agree(ctx: moderngl.Context) -> None:
     for key, drops in found[0].items():
         away = np.abs(drops - found[1][key]).max(axis=1)
         assert np.mean(away > 1e-3) < 0.01
+
+
+def test_only_air_that_moves_alike_everywhere_is_steady() -> None:
+    def flow(wind: tuple[float, float, float], turbulence: float, exponent: float) -> AirFlow:
+        return air_flow(
+            wind, reference=10.0, exponent=exponent, ground=0.0, turbulence=turbulence,
+            scale=60.0, run=(0.0, 0.0, 0.0),
+        )  # fmt: skip
+
+    blows = (5.0, 0.0, 1.0)
+    assert is_steady(flow((0.0, 0.0, 0.0), 0.0, 0.2)) and is_steady(flow(blows, 0.0, 0.0))
+    assert not is_steady(flow(blows, 0.0, 0.2)) and not is_steady(flow(blows, 1.0, 0.0))
 
 
 @pytest.mark.parametrize("backend", ["compute", "feedback"])

@@ -23,18 +23,27 @@ class AirBlock:
     def __init__(self, ctx: moderngl.Context) -> None:
         self._block = BlockBuffer(ctx, AIR_FLOW)
         self._view: ViewData | None = None
+        self._steady = False
 
-    def use(self, view: ViewData) -> None:
-        """Bring the block up to date with a view, and bind it."""
+    def use(self, view: ViewData) -> bool:
+        """Bring the block up to date with a view, and bind it; whether the variant STEADY_AIR does."""
         if view is not self._view:
             self._view = view
-            fill_air(self._block, flow_of(view))
+            flow = flow_of(view)
+            fill_air(self._block, flow)
             self._block.upload()
+            self._steady = is_steady(flow)
         self._block.bind()
+        return self._steady
 
     def release(self) -> None:
         """Give the buffer back; twice does no harm."""
         self._block.release()
+
+
+def is_steady(flow: AirFlow) -> bool:
+    """Whether the air moves alike everywhere: no turbulence, and no wind that grows with height."""
+    return not any(flow.gains) and (flow.exponent == 0.0 or not any(flow.wind))
 
 
 def flow_of(view: ViewData) -> AirFlow:

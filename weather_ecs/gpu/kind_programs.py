@@ -22,6 +22,11 @@ SHELTER_UNIT = 1
 PICTURES_UNIT = 0
 
 
+def step_name(sheltered: bool, steady: bool) -> str:
+    """Of the step with a collision heightmap or not, in air that moves alike everywhere or not."""
+    return "sheltered " * sheltered + "steady " * steady + "step"
+
+
 class KindPrograms:
     """Made when the first container of its kind comes; snow brings its pictures and its block."""
 
@@ -29,18 +34,19 @@ class KindPrograms:
         self, ctx: moderngl.Context, shaders: ShaderLoader, kind: int, compute: bool
     ) -> None:
         key, defines = (COMPUTE if compute else FEEDBACK), ("SNOW",) if kind == SNOW else ()
-        # Without and with a collision heightmap.
-        self.steps: list[Any] = [
-            shaders.program(replace(key, defines=defines)),
-            shaders.program(replace(key, defines=(*defines, "SHELTER"))),
-        ]
-        if "shelter_map" in self.steps[1]:
-            self.steps[1]["shelter_map"] = SHELTER_UNIT
+        self.steps: dict[str, Any] = {}
+        for sheltered in (False, True):
+            for steady in (False, True):
+                more = ("SHELTER",) * sheltered + ("STEADY_AIR",) * steady
+                program = shaders.program(replace(key, defines=(*defines, *more)))
+                if "shelter_map" in program:
+                    program["shelter_map"] = SHELTER_UNIT
+                self.steps[step_name(sheltered, steady)] = program
         self.draw = shaders.program(FLAKE if kind == SNOW else STREAK)
         # Those that read drops as vertices, by name.
         self.readers: dict[str, moderngl.Program] = {} if compute else {"streak": self.draw}
         if not compute:
-            self.readers |= {"step": self.steps[0], "sheltered step": self.steps[1]}
+            self.readers |= self.steps
         self._block: BlockBuffer | None = None
         if kind == SNOW:
             self._block = BlockBuffer(ctx, SNOW_BLOCK)
