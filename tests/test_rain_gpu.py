@@ -12,8 +12,7 @@ import pytest
 
 from tests.views import look_from, perspective
 from weather_ecs.frame import AREA_DTYPE, DropLook, FrameData, WindProfile
-from weather_ecs.gpu.air_block import flow_of
-from weather_ecs.gpu.air_block import is_steady
+from weather_ecs.gpu.air_block import flow_of, is_steady
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.heightmap import Footprint
 from weather_ecs.gpu.rain_blocks import SHELTER

@@ -26,7 +26,7 @@ class AirBlock:
         self._steady = False
 
     def use(self, view: ViewData) -> bool:
-        """Bring the block up to date with a view, and bind it; whether the variant STEADY_AIR does."""
+        """Bring the block up to date with a view, and bind it; whether STEADY_AIR will do."""
         if view is not self._view:
             self._view = view
             flow = flow_of(view)
