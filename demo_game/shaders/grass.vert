@@ -20,16 +20,11 @@ void main() {
     float snowy = snow_cover(root, vec3(0.0, 1.0, 0.0));
     vec3 p = mix(root, in_position, size * (1.0 - 0.62 * snowy));
     float phase = wind.w * 1.7 + dot(root.xz, vec2(0.9, 0.7));
-    // Waves run before the wind, in broken lines, and the more so the more it blows.
-    float blows = wind_at(root.xz);
-    float across = dot(root.xz, vec2(-wind.y, wind.x));
-    float wave = dot(root.xz, wind.xy) * 0.35 - drift.w + 1.4 * sin(across * 0.19 + wind.w * 0.2);
-    float lean = 1.15 * (1.0 - exp(-blows * 0.075)) * (0.68 + 0.32 * sin(wave));
-    lean *= 0.85 + 0.15 * sin(phase);
+    float lean = grass_lean(root.xz) * (0.85 + 0.15 * sin(phase));
     float high = (p.y - root.y) * in_color.w;
     p.xz += wind.xy * (high * lean);
     p.y -= high * 0.42 * lean * lean;
-    float flutter = 0.008 + 0.0022 * min(blows, 12.0);
+    float flutter = 0.008 + 0.0022 * min(gusts[0].x, 12.0);
     p.xz += vec2(sin(phase * 1.9), cos(phase * 1.6)) * (flutter * in_color.w);
     vec2 cover = rain_cover(root.xz);
     vec3 albedo = in_color.rgb * in_color.rgb * (1.0 - 0.28 * cover.y);

@@ -21,7 +21,9 @@ in vec4 v_light;
 in vec4 v_haze;
 in vec4 v_view;
 in float v_snow;
-#ifndef NEAR
+#ifdef NEAR
+in float v_gust;
+#else
 in vec4 v_wild;
 #endif
 
@@ -48,7 +50,7 @@ void main() {
     float wet = v_view.w;
 #ifdef NEAR
     vec4 detail = texture(detail_map, p.xz * 0.31) - 0.5;
-    albedo *= 1.0 + mix(detail.b * 1.35, detail.g, bare);
+    albedo *= 1.0 + mix(detail.b * 1.35 + v_gust, detail.g, bare);
 #endif
     // Thin snow lies in the hollows first, and earth holds less of it than grass.
     float snowy = 0.0;

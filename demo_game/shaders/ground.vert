@@ -1,6 +1,9 @@
 // The ground: the meadow near the camera (NEAR, with WET), and everything beyond.
 #include "frame.glsl"
 #include "light.glsl"
+#ifdef NEAR
+#include "breeze.glsl"
+#endif
 
 in vec3 in_position;
 in vec4 in_normal;
@@ -10,7 +13,9 @@ out vec4 v_light;     // sky's rgb, sun's facing
 out vec4 v_haze;
 out vec4 v_view;      // towards the camera, m; w wetness
 out float v_snow;     // near: upward part of the normal; far: mm of snow
-#ifndef NEAR
+#ifdef NEAR
+out float v_gust;     // how much brighter grass is that leans
+#else
 out vec4 v_wild;
 #endif
 
@@ -29,7 +34,9 @@ void main() {
     v_haze = haze_depth(in_position);
 #endif
     v_view = vec4(camera.xyz - in_position, cover.y);
-#ifndef NEAR
+#ifdef NEAR
+    v_gust = 0.45 * grass_lean(in_position.xz) - 0.12;
+#else
     v_wild = vec4(in_color.rgb * in_color.rgb, in_color.a);
 #endif
     gl_Position = view_projection * vec4(in_position, 1.0);
