@@ -7,13 +7,16 @@ from typing import Any
 
 from demo_game.compass import compass
 from demo_game.ui.theme import MARGIN, PADDING, TEXT_DIM, Frame, Layer, Rect, Text
+from weather_ecs import Sample
 
 ROWS = (
     "frame",
     "drops moved",
     "drops drawn",
     "rain",
-    "rain here",
+    "falls here",
+    "one sees",
+    "air",
     "wind",
     "sky",
     "quality",
@@ -103,6 +106,7 @@ def readout_values(
     *,
     ms: float,
     stats: object,
+    here: Sample,
     wind: tuple[float, float],
     state: str,
     quality: str,
@@ -120,10 +124,25 @@ def readout_values(
         "drops moved": f"{int(get('drops_moved')):,}".replace(",", "\u202f"),
         "drops drawn": f"{int(get('drops_drawn')):,}".replace(",", "\u202f"),
         "rain": str(get("mode")),
-        "rain here": f"{float(get('rain_rate_here')):.1f} mm/h",
+        "falls here": _falls(here),
+        "one sees": _length(here.visibility),
+        "air": f"{here.temperature:.1f} \u00b0C   {100.0 * here.humidity:.0f} %",
         "wind": f"{wind[0]:.1f} m/s to {compass(wind[1])}",
         "sky": state,
         "quality": used if quality in (used, "") else f"{quality}: {used}",
         "engine": backend,
         "position": "  ".join(f"{value:.1f}" for value in position) + " m",
     }
+
+
+def _falls(here: Sample) -> str:
+    """Rates of rain and snow, mm/h of water; under a roof nothing falls."""
+    if here.sheltered:
+        return "nothing, sheltered"
+    parts = [("rain", here.rain_rate), ("snow", here.snow_rate)]
+    found = [f"{name} {rate:.1f}" for name, rate in parts if rate >= 0.05]
+    return " + ".join(found) + " mm/h" if found else "nothing"
+
+
+def _length(meters: float) -> str:
+    return f"{meters:.0f} m" if meters < 1000.0 else f"{meters / 1000.0:.1f} km"

@@ -130,10 +130,11 @@ class Overlay:
             mood = game.mood.current
             view.show(
                 readout_values(
+                    here=game.weather.sample(game.pose.eye),
                     ms=ms,
                     stats=game.weather.stats,
                     wind=(mood.wind_speed, mood.wind_heading),
-                    state=f"{game.state}, {game.sky.name}",
+                    state=f"{game.state.replace('_', ' ')}, {game.sky.name}",
                     quality=game.settings.quality,
                     backend=game.weather.backend,
                     position=game.pose.eye,

@@ -319,7 +319,8 @@ class Renderer:
             return
         self._released = True
         with self._guard:
-            for thing in (*self._airs.values(), *self._maps.values(), *reversed(self._made)):
+            held: list[Releasable] = [*self._airs.values(), *self._maps.values()]
+            for thing in held + self._made[::-1]:
                 thing.release()
         self._guard.release()
         self._maps.clear()
