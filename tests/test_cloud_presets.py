@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import esper
 import numpy as np
 import pytest
 
-from weather_ecs import presets
-from weather_ecs.components import CloudModel
+from tests.worlds import fresh_world
+from weather_ecs import Weather, presets
+from weather_ecs.clock import STEP
+from weather_ecs.components import Cloud, CloudModel, CloudSeed, Sky, SkyLayer
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.cloud_images import CLOUD_IMAGES
 from weather_ecs.physics.cloud_shape import CloudShape, shape
@@ -161,3 +164,21 @@ def test_skies_are_layers_at_their_heights_with_a_climate():
     for names in (("fog",), ("clear", "fog")):
         with pytest.raises(InvalidValueError, match=r"fog.*overcast"):
             presets.sky(*names)
+
+
+def test_a_weather_knows_the_packages_models_and_the_worlds_come_first():
+    sky = Sky(0.0, ("cumulus",), generated=1, count=1)
+    layer = SkyLayer(size=(5000.0, 5000.0), skies=(sky,))
+    with fresh_world(), Weather() as weather:
+        esper.create_entity(layer)
+        esper.create_entity(Cloud("cumulonimbus", (0.0, 900.0, 0.0)))
+        esper.process(STEP)
+        found = weather._state.models.find("cumulus", weather._state.uids)
+        assert (
+            found is not None
+            and found.seeds[0].width == presets.cloud_model("cumulus").seeds[0].width
+        )
+        assert weather.stats.clouds == 2
+        mine = CloudModel("cumulus", (CloudSeed(),))
+        esper.create_entity(mine)
+        assert weather._state.models.find("cumulus", weather._state.uids) is mine
