@@ -75,6 +75,7 @@ class RainPass:
         self._air = AirBlock(ctx)
         self._steady = False  # the air of this draw
         self._draw_block = BlockBuffer(ctx, RAIN_DRAW)
+        self._filled: tuple[ContainerData, ViewData] | None = None  # what it holds
 
     def add_reader(self, name: str, program: moderngl.Program) -> None:
         """A program that reads drops and flakes as vertices."""
@@ -210,7 +211,11 @@ class RainPass:
             drops.streaks.draw(self._cull, count, self._order)
 
     def fill_container(self, container: ContainerData, view: ViewData) -> None:
-        """Upload the block RainDraw of one container."""
+        """Upload the block RainDraw of one container, unless it is the one that is there."""
+        filled = self._filled
+        if filled is not None and filled[0] is container and filled[1] is view:
+            return
+        self._filled = (container, view)
         look, snow = view.frame.look, view.frame.flakes
         data = self._draw_block.data
         data["container_axis"], data["container_shape"] = container.axis, container.shape

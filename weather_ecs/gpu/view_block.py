@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,12 @@ def veil_light(sky: SkyLight) -> NDArray:
     return 0.45 * zenith + 0.40 * horizon + 0.15 * np.array(sky.ground_color)
 
 
+@lru_cache(maxsize=8)
+def _lights(sky: SkyLight) -> tuple[NDArray, NDArray]:
+    """(what a drop shows, the veil's colour encoded): the light changes seldom."""
+    return drop_light(sky), encode(veil_light(sky))
+
+
 def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int, int]) -> None:
     """Write camera and light of `view`, drawn into `viewport` (x, y, width, height in pixels)."""
     data = block.data
@@ -51,8 +58,9 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     data["view_time"] = (view.frame.time, view.dt, 0.0, 0.0)
     data["sun_direction"] = (*sky.sun_direction, 0.0)
     data["sun_color"] = (*sky.sun_color, 0.0)
-    data["drop_color"][:3] = look.brightness * drop_light(sky)
-    data["veil_color"][:3] = encode(veil_light(sky))
+    drop, veil = _lights(sky)
+    data["drop_color"][:3] = look.brightness * drop
+    data["veil_color"][:3] = veil
     fog = view.frame.fog
     data["fog_color"] = (*fog.color, fog.extinction * LOG2_E)
     data["fog_shown"] = (*encode(np.array(fog.color)).tolist(), fog.depth)
