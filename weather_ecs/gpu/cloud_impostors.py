@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.gpu.cloud_atlas import Atlas, Tile
+from weather_ecs.gpu.cloud_bounds import picture_bounds
 from weather_ecs.gpu.cloud_scene import CloudScene
-from weather_ecs.physics.cloud_view import picture_axes
+from weather_ecs.gpu.cloud_store import StoredShape
 
 KEPT_DTYPE = np.dtype(
     [
@@ -27,6 +28,8 @@ KEPT_DTYPE = np.dtype(
         ("way", "f8", 3),  # from the camera to the cloud, when it was taken
         ("version", "i8"),  # of the shape's absorption
         ("shape", "i8"),  # the shape's key
+        ("pixels", "f4"),  # of the scene, when it was taken, and what its tile should have been
+        ("need", "f4"),
         ("stamp", "i8"),  # of sky and look
         ("state", "f4", 5),  # growth, mode, darkness, shear
         ("seen", "i8"),  # draw at which it was last in the picture
@@ -158,7 +161,8 @@ class Impostors:
         way = scene.center / np.maximum(scene.away, 1e-6)[:, None]
         turned = np.linalg.norm(way - kept["way"], axis=1)
         error = turned * size / PIXELS_OFF
-        wanted = np.minimum(size, largest)
+        grown = size / np.maximum(kept["pixels"], 1e-3)
+        wanted = np.clip(kept["need"] * grown, Atlas.SMALLEST, largest)
         have = np.maximum(kept["tile"][:, 2], 1)
         error = np.maximum(error, np.log2(np.maximum(wanted / have, 1e-6)) / 0.35)
         error = np.maximum(error, -np.log2(np.maximum(wanted / have, 1e-6)) / 2.2)
@@ -168,10 +172,15 @@ class Impostors:
         return np.maximum(error, change.max(axis=1))
 
     def place(
-        self, scene: CloudScene, index: int, side: int
+        self, scene: CloudScene, shape: StoredShape, index: int, largest: int
     ) -> tuple[Tile, NDArray[np.float32]] | None:
-        """Room for a picture of a cloud, and the matrix it is taken with; None: no room."""
-        tile = self._take(side)
+        """Room for a picture of a cloud, and the matrix it is taken with; None: no room.
+
+        largest: height of a tile.
+        """
+        bounds = picture_bounds(scene, shape, index)
+        need = max(bounds.half[0], 2.0 * bounds.half[1]) * scene.unit
+        tile = self._take(_side(need, largest))
         if tile is None:
             return None
         kept = self.kept
@@ -181,14 +190,8 @@ class Impostors:
             kept["old_quad"][index] = kept["quad"][index]
             kept["share"][index] = 0.0
         kept["tile"][index] = tile
-        center = scene.center[index]
-        way = center / scene.away[index]
-        right, up = picture_axes(way)
-        corners = box_corners(scene, index)
-        depth = corners @ way
-        x, y = corners @ right / depth, corners @ up / depth
-        mx, my = 0.5 * (x.max() + x.min()), 0.5 * (y.max() + y.min())
-        hx, hy = 0.5 * (x.max() - x.min()), 0.5 * (y.max() - y.min())
+        way, right, up = bounds.axes
+        (mx, my), (hx, hy) = bounds.middle, bounds.half
         matrix = np.zeros((4, 4))
         matrix[0, :3] = (right - mx * way) / hx
         matrix[1, :3] = (up - my * way) / hy
@@ -196,6 +199,7 @@ class Impostors:
         far = scene.away[index]
         kept["quad"][index] = (far * (mx * right + my * up), far * hx * right, far * hy * up)
         kept["way"][index] = way
+        kept["pixels"][index], kept["need"][index] = scene.pixels[index], need
         kept["stamp"][index] = self._stamp
         kept["state"][index] = _state(scene.clouds[index : index + 1])[0]
         return tile, matrix.astype(np.float32)
@@ -257,17 +261,6 @@ class Impostors:
     def release(self) -> None:
         """Give everything back; twice does no harm."""
         self.atlas.release()
-
-
-def box_corners(scene: CloudScene, index: int) -> NDArray[np.float64]:
-    """(8, 3) of the box round a cloud's billboards, from the camera."""
-    cloud = scene.clouds[index]
-    signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], np.float64)
-    local = scene.middle[index] * float(cloud["scale"]) + signs * scene.half[index]
-    c, s = np.cos(float(cloud["heading"])), np.sin(float(cloud["heading"]))
-    x, y, z = local[:, 0] * float(cloud["mirror"]), local[:, 1], local[:, 2]
-    corners = np.stack([x * c + z * s, y, z * c - x * s], axis=1)
-    return corners + scene.center[index]
 
 
 def _state(clouds: NDArray) -> NDArray[np.float64]:

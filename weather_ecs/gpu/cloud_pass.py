@@ -115,6 +115,7 @@ class CloudPass:
         impostors = self._impostors(view.key, settings)
         impostors.follow(scene, _numbers(view, light), dt)
         plan = self._plan(scene, impostors, settings)
+        self._largest = settings.cloud_tile
         haze = haze_of(view, light, scene.center)
         taken = np.array([index for index, _ in plan.take], np.intp)
         bills = np.concatenate([plan.real, taken])
@@ -162,13 +163,13 @@ class CloudPass:
         self._ctx.enable_only(moderngl.BLEND)
         self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
         refreshed = 0
-        for row, (index, side) in enumerate(plan.take, first):
-            placed = impostors.place(scene, index, side)
+        for row, (index, _) in enumerate(plan.take, first):
+            shape = store.shapes[int(scene.shapes[index])]
+            placed = impostors.place(scene, shape, index, self._largest)
             if placed is None:
                 plan.lost += 1
                 continue
             tile, matrix = placed
-            shape = store.shapes[int(scene.shapes[index])]
             impostors.kept["version"][index] = shape.versions
             impostors.kept["shape"][index] = shape.data.key
             impostors.atlas.begin(tile)

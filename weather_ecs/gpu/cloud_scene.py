@@ -25,7 +25,6 @@ class CloudScene:
     shapes: NDArray[np.intp]
     center: Floats  # (n, 3)
     half: Floats  # (n, 3) of the box round the billboards, scaled
-    middle: Floats  # (n, 3) of that box in the shape, unscaled
     base: Floats  # (n,) scaled, from the centre
     thick: Floats  # (n,) 1/m, of way inside, over the light's penetration
     reach: Floats  # (n,) of the sphere that holds what is drawn
@@ -33,6 +32,7 @@ class CloudScene:
     visible: NDArray[np.bool_]
     order: NDArray[np.intp]  # of those that are visible, back to front
     pixels: Floats  # (n,) half of the greater of width and twice the height in the picture
+    unit: float  # pixels that a unit of width at unit depth takes
     parallel: bool  # the camera's rays are: no impostors then
 
 
@@ -65,9 +65,9 @@ def scene_of(view: ViewData, store: CloudStore, height: int) -> CloudScene:
     pixels = np.maximum(wide, 2.0 * high) * unit / np.maximum(away, 1.0)
     parallel = bool(view.projection[3, 3] == 1.0)
     return CloudScene(
-        clouds, shapes, center, half, store.middle[shapes], store.base[shapes] * scale,
+        clouds, shapes, center, half, store.base[shapes] * scale,
         store.thick[shapes] / np.maximum(scale, 1e-9),
-        reach, away, visible, order, pixels, parallel,
+        reach, away, visible, order, pixels, unit, parallel,
     )  # fmt: skip
 
 

@@ -22,7 +22,6 @@ class StoredShape:
     data: CloudShapeData
     first: int  # of its billboards in the texture, a multiple of ROW
     seeds: int  # its first seed, a multiple of ROW
-    middle: NDArray[np.float64]  # (3,) of the box round its billboards, m
     half: NDArray[np.float64]  # (3,) half of that box's sizes, m
     base: float  # m, its underside
     position: NDArray[np.float32]  # (n, 3) of the billboards, m
@@ -96,7 +95,7 @@ class CloudStore:
         self.billboards = ItemTexture(ctx, 6)
         self.seeds = ItemTexture(ctx, 2)
         self.shapes: list[StoredShape] = []
-        self.half = self.middle = np.zeros((0, 3))
+        self.half = np.zeros((0, 3))
         self.base = self.reach = self.thick = np.zeros(0)
         self._known: dict[int, StoredShape] = {}
         self._tuple: tuple[CloudShapeData, ...] = ()
@@ -117,7 +116,6 @@ class CloudStore:
         self.shapes = stored
         if len(before) != len(stored) or any(map(is_not, before, stored)):
             self.half = np.array([s.half for s in stored]).reshape(-1, 3)
-            self.middle = np.array([s.middle for s in stored]).reshape(-1, 3)
             self.base = np.array([s.base for s in stored])
             self.reach = np.array([s.reach for s in stored])
             self.thick = np.array([1.0 / max(s.data.penetration, 1e-3) for s in stored])
@@ -149,7 +147,6 @@ class CloudStore:
             data,
             self.billboards.take(items),
             seeds,
-            (0.5 * (low + high)).astype(np.float64),
             np.maximum(0.5 * (high - low), 1e-3).astype(np.float64),
             base,
             position,
