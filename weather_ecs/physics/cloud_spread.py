@@ -7,9 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-MOST_PAIRS = (
-    4_000_000  # billboards times seeds; in larger clouds each keeps its own seed's value
-)
+MOST_PAIRS = 4_000_000  # billboards times seeds; in larger clouds each keeps its own seed's value
 WIDTH = 0.75  # of a seed's mean half side: how far its value reaches
 
 Floats = NDArray[np.float32]
