@@ -26,6 +26,7 @@ MOST = 32  # areas that clouds carry at once; of more clouds the oldest rain
 FOOT = 0.25  # of a cloud's height: its rain falls from what reaches below
 SHRINK = 0.9  # of that foot's radii
 SOFT = 0.35  # of the smaller radius
+CLOSED = 0.9  # of the rectangle that all the areas of a layer cover together at most
 
 _RAIN_FIELDS = ("center", "radii", "rain_rate", "heading", "soft_edge", "ceiling", "velocity")
 
@@ -85,7 +86,8 @@ class CloudRainSystem:
     """Keeps a `RainArea` entity under every cloud that rains, once a second of weather.
 
     The rate is the model's, times how whole the cloud is and how far the climate has come towards
-    its sky. Where areas would overlap, they share the rain. An area that the game deletes stays so.
+    its sky. Clouds that close the sky overlap; their areas are smaller, so that it does not rain
+    twice. An area that the game deletes stays so.
     """
 
     def __init__(self) -> None:
@@ -141,9 +143,9 @@ class CloudRainSystem:
             shaft = shaft_of(foot, scale[k], 0.0, place, rate, record.velocity)
             found.append(((record.uid, int(array.serial[row])), shaft))
         covered = sum(math.pi * s.radii[0] * s.radii[1] for _, s in found)
-        share = min(layer.size[0] * layer.size[1] / covered, 1.0) if covered else 1.0
+        room = CLOSED * layer.size[0] * layer.size[1]
         for key, shaft in found:
-            yield key, shaft._replace(rain_rate=round(shaft.rain_rate * share, 3))
+            yield key, shaft if covered <= room else _smaller(shaft, math.sqrt(room / covered))
 
     def _foot(self, state: WeatherState, model: CloudModel, number: int) -> Foot:
         shape = state.cloud_shapes.get(model, number)
@@ -153,6 +155,11 @@ class CloudRainSystem:
                 self._feet.clear()
             known = self._feet[shape.key] = foot_of(shape.made)
         return known
+
+
+def _smaller(shaft: Shaft, factor: float) -> Shaft:
+    a, b = (round(max(factor * radius, SMALLEST_RADIUS), 3) for radius in shaft.radii)
+    return shaft._replace(radii=(a, b), soft_edge=SOFT * b)
 
 
 def _first(count: int, shafts: Iterator[tuple[Key, Shaft]]) -> Iterator[tuple[Key, Shaft]]:
