@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import moderngl
 
 from weather_ecs.frame import ViewData
@@ -24,15 +26,19 @@ class AirBlock:
         self._block = BlockBuffer(ctx, AIR_FLOW)
         self._view: ViewData | None = None
         self._steady = False
+        self._air: tuple[Any, Any] = (None, None)  # wind and profile that the block is for
 
     def use(self, view: ViewData) -> bool:
         """Bring the block up to date with a view, and bind it; whether STEADY_AIR will do."""
         if view is not self._view:
+            air = view.frame.wind, view.frame.profile
+            # Steady air is the same however far it has gone.
+            if not self._steady or air != self._air:
+                flow = flow_of(view)
+                fill_air(self._block, flow)
+                self._block.upload()
+                self._steady, self._air = is_steady(flow), air
             self._view = view
-            flow = flow_of(view)
-            fill_air(self._block, flow)
-            self._block.upload()
-            self._steady = is_steady(flow)
         self._block.bind()
         return self._steady
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -61,7 +62,7 @@ def camera_from(view: Any, projection: Any) -> Camera:
     p = matrix(projection, "projection")
     try:
         inverse = np.linalg.inv(v)
-        singular = abs(float(np.linalg.det(p))) < 1e-30
+        singular = _singular(p.tobytes())
     except np.linalg.LinAlgError as error:
         raise InvalidValueError("view", view, "an invertible matrix") from error
     if singular:
@@ -76,6 +77,12 @@ def camera_from(view: Any, projection: Any) -> Camera:
         forward = (sign * i[0][1], sign * i[2][1])
     heading = math.atan2(-forward[1], forward[0])
     return Camera(v, p, position, heading, _half_width(i, p.tolist(), heading))
+
+
+@lru_cache(maxsize=16)
+def _singular(matrix: bytes) -> bool:
+    """Of a (4, 4) float64 matrix row by row; projections seldom change."""
+    return abs(float(np.linalg.det(np.frombuffer(matrix).reshape(4, 4)))) < 1e-30
 
 
 def _half_width(inverse: list[list[float]], p: list[list[float]], heading: float) -> float:

@@ -67,6 +67,8 @@ class CloudList:
         Both are the same objects as before where nothing has changed.
         """
         lists = [esper.get_component(kind) for kind in _KINDS]
+        if self._is_clear() and not any(lists):
+            return self._rows, self._shapes
         revisions = tuple([kind.revision() for kind in _KINDS])
         light = state.cloud_shapes.version
         now = (state.clock.time, state.clouds, light, revisions, sky, wind, profile)
@@ -78,6 +80,10 @@ class CloudList:
             self._rows, self._shapes = self._collect(state, sky, wind, profile)
             self._now = (*now[:2], state.cloud_shapes.version, *now[3:])
         return self._rows, self._shapes
+
+    def _is_clear(self) -> bool:
+        """Whether nothing is left of any cloud there was."""
+        return not (len(self._rows) or self._shapes or self._seen or len(self._ghosts))
 
     def _collect(
         self, state: WeatherState, sky: SkyLight, wind: Wind, profile: WindProfile
