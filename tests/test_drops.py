@@ -195,6 +195,13 @@ def test_liu_tong_is_the_papers_three_pieces() -> None:
     assert atlas < np.abs(drops.terminal_speed(diameter, "liu_tong") - measured).mean()
 
 
+def test_beyond_the_sizes_of_a_law_its_pieces_go_on() -> None:
+    assert drops.terminal_speed([0.2, 8.0], "liu_tong") == pytest.approx([0.8744, 9.0], abs=1e-3)
+    assert drops.terminal_speed([6.0, 50.0]).tolist() == pytest.approx([9.3686, 9.65], abs=1e-3)
+    with pytest.raises(InvalidValueError, match="diameter_mm"):
+        drops.fall_speed(100.1, 1.0)
+
+
 def test_speeds_of_the_first_paper() -> None:
     """Radii 0.1 to 0.45 mm: 0.72 to 3.67 m/s, spheres; 0.5 to 4 mm: 4.0 to 9.23, flattened."""
     small = drops.fall_speed([0.2, 0.9], math.inf)
