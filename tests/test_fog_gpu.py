@@ -128,7 +128,7 @@ def view(data: FrameData, at: Camera, veils: bool = True) -> ViewData:
 
 def expected(covered: np.ndarray, shade: float) -> np.ndarray:
     """The picture where fog takes this share of the light."""
-    opacity = overlay_opacity(1.0 - np.where(covered < 0.001, 0.0, covered))[..., None]
+    opacity = overlay_opacity(1.0 - covered)[..., None]
     return shade * (1.0 - opacity) + encode(np.array(COLOR)) * opacity
 
 

@@ -8,16 +8,16 @@ from weather_ecs.frame import ViewData
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.view_block import LOG2_E
-from weather_ecs.physics.optics import CLEAR, EARTH, falling_extinction
+from weather_ecs.physics.optics import CLEAR, falling_extinction, layer_rim
 from weather_ecs.physics.phase import share_at, temperature_at
 from weather_ecs.physics.rain_field import RainField
 
 FOG_VIEW = UniformBlock(
     "FogView",
     ("fog_frustum", "vec4"),  # 1 / the projection's diagonal, and its off-centre shares
-    ("fog_up", "vec4"),  # world's upwards, in the camera's axes
-    # Optical depth times log2(e): per m times the depth's numerator, of the layer overhead; square
-    # of the sine of the elevation below which the Earth's roundness ends the layer.
+    ("fog_up", "vec4"),  # world's upwards, in the camera's axes; unit of the rays' rise
+    # Optical depth times log2(e) of a scene whose depth and the second add up to 1; the rise, in
+    # its unit, that a level ray has on the round Earth.
     ("fog_law", "vec4"),
 )
 DRAW = ProgramKey(vertex="fog.vert", fragment="fog.frag")
@@ -44,12 +44,15 @@ class FogPass:
         extinction = fog.extinction + (0.0 if view.veils else falling_here(view))
         data = self._block.data
         data["fog_frustum"] = (1.0 / p[0, 0], 1.0 / p[1, 1], p[0, 2], p[1, 2])
-        data["fog_up"] = (*view.view[:3, 1].tolist(), 0.0)
-        # Clean air is in the host's sky already.
-        overhead = max(fog.extinction - CLEAR, 0.0) * fog.depth
-        rim = max(2.0 * fog.depth / EARTH, 1e-9)
-        near = abs(float(p[2, 3])) * extinction
-        data["fog_law"] = (near * LOG2_E, overhead * LOG2_E, rim, 0.0)
+        # t = near / (depth + beyond), as the projection's third row has it.
+        near, beyond = 0.5 * abs(float(p[2, 3])), 0.5 * (float(p[2, 2]) - 1.0)
+        unit = near * extinction * LOG2_E
+        # The fog's layer, from clean air on, which the host's sky has already: its optical depth is
+        # the unit over the rise then.
+        overhead = max(fog.extinction - CLEAR, 1e-12) * max(fog.depth, 1e-6) * LOG2_E
+        rise = unit / overhead
+        data["fog_up"] = (*view.view[:3, 1].tolist(), rise)
+        data["fog_law"] = (unit, beyond, rise * layer_rim(fog.depth), 0.0)
         self._block.upload()
         self._block.bind()
         depth.use(DEPTH_UNIT)

@@ -71,11 +71,16 @@ def falling_extinction(rain_rate: float, snow_rate: float) -> float:
 def layer_path(elevation_sine: ArrayLike, depth: float) -> FloatArray:
     """Metres of a layer `depth` m deep above the eye that a ray of this elevation goes through.
 
-    On a round Earth, so that it ends at the horizon too: depth / sqrt(sine^2 + 2 depth / radius);
-    rays downwards count as level.
+    depth / (sine + sqrt(2 depth / radius)): straight up the depth itself, and at the horizon the
+    way that it is on a round Earth; rays downwards count as level.
     """
     sine = np.clip(np.asarray(elevation_sine, np.float64), 0.0, 1.0)
-    return depth / np.sqrt(sine * sine + max(2.0 * depth / EARTH, 1e-9))
+    return depth / (sine + layer_rim(depth))
+
+
+def layer_rim(depth: float) -> float:
+    """Sine of the elevation at which the Earth's roundness halves the way through a layer."""
+    return math.sqrt(max(2.0 * depth / EARTH, 1e-9))
 
 
 def overlay_opacity(factor: ArrayLike) -> FloatArray:

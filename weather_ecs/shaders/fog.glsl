@@ -16,7 +16,7 @@ float fog_left_above(vec3 way)
 {
     float away = length(way);
     float up = max(way.y / max(away, 1e-3), 0.0);
-    return fog_left(min(away, fog_shown.w * inversesqrt(up * up + ROUND * fog_shown.w + 1e-9)));
+    return fog_left(min(away, fog_shown.w / (up + sqrt(ROUND * fog_shown.w + 1e-9))));
 }
 
 // Linear light as it arrives from `distance`. Opacity stays: what is seen through it has its own fog.

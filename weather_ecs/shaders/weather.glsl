@@ -40,9 +40,8 @@ vec3 weather_fog_and_rain(vec3 light, float distance)
 // Earth. Clean air counts as part of the sky.
 float weather_sky_left(vec3 direction)
 {
-    float up = max(direction.y, 0.0);
-    float round = 2.0 / 6.371e6 * weather_fog_law.y;
-    return exp(-weather_fog_law.z * weather_fog_law.y * inversesqrt(up * up + round + 1e-9));
+    float up = max(direction.y, 0.0) + sqrt(2.0 / 6.371e6 * weather_fog_law.y + 1e-9);
+    return exp(-weather_fog_law.z * weather_fog_law.y / up);
 }
 
 // Linear light of a sky behind the fog.
