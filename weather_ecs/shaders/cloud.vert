@@ -73,7 +73,9 @@ void main()
     // Nothing is left of a billboard that the camera comes to.
     float near = smoothstep(0.30, 0.95, away / max(size.x, 1e-3));
     vs_fade.x = b.opacity * there * near * mix(cloud.opacity, 1.0, 1.0 - cloud_hazed);
-    vs_fade.y = (v.y - cloud.base) / (0.16 * cloud.half_size.y) + 0.5;
+    // Of the ellipsoid and not of its image, which hangs low where it lies level over the viewer.
+    float rise = 0.5 * flat_offset.y * size.y * level * size.y / max(height, 1e-3);
+    vs_fade.y = (middle.y + rise - cloud.base) / (0.16 * cloud.half_size.y) + 0.5;
     vs_fade.z = 0.25 * size.x;
     vs_haze = vec4(cloud.haze, cloud.fog * cloud_hazed);
     vs_uv = vec3(corner * 0.5 + 0.5, b.image);
