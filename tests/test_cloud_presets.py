@@ -58,7 +58,7 @@ def test_a_genus_has_its_height_and_a_modest_cost(band, name):
     assert low <= model.base[0] < model.base[1] <= high
     for it in shapes:
         assert 4 <= len(it.centers) <= 40
-        assert 25 <= len(it.billboards) <= 150
+        assert 10 <= len(it.billboards) <= 150
     assert len({it.centers.tobytes() for it in shapes}) == len(shapes)
     assert np.mean([len(it.billboards) for it in shapes]) <= (
         130 if name == "cumulonimbus" else 105
@@ -94,21 +94,24 @@ def test_cumulonimbus_has_a_tower_and_an_anvil_wider_than_it():
 
 
 @pytest.mark.parametrize("name", ["stratus", "nimbostratus", "altostratus", "cirrostratus"])
-def test_layers_are_wide_and_thin_and_closed(name):
+def test_layers_are_wide_and_thin_and_nearly_closed(name):
     _, shapes = made(name)
+    closed = []
     for it in shapes:
         edges = outline(it)
         wide = np.ptp(edges[:, :2])
-        assert wide > 5000.0
-        assert (
-            edges[:, 3].max() - edges[:, 2].min() < (0.45 if name == "nimbostratus" else 0.2) * wide
-        )
-    # Seen from below, what the billboards show covers the middle of the cloud.
-    it = shapes[0]
-    grid = np.stack(np.meshgrid(*[np.linspace(-0.25, 0.25, 21) * wide] * 2), axis=-1).reshape(-1, 2)
-    away = np.linalg.norm(it.billboards["position"][:, None, ::2] - grid[None], axis=2)
-    covered = (away < 0.375 * it.billboards["size"][:, 0, None]).any(axis=0)
-    assert covered.mean() > 0.9
+        assert wide > 4500.0
+        high = edges[:, 3].max() - edges[:, 2].min()
+        assert high < (0.45 if name == "nimbostratus" else 0.15) * wide
+        # Seen from below, what the billboards show covers the middle of the cloud.
+        axis = np.linspace(-0.2, 0.2, 21) * wide
+        grid = np.stack(np.meshgrid(axis, axis), axis=-1).reshape(-1, 2)
+        away = np.linalg.norm(it.billboards["position"][:, None, ::2] - grid[None], axis=2)
+        closed.append((away < 0.375 * it.billboards["size"][:, 0, None]).any(axis=0).mean())
+        # Large ones cost a viewer below most: all of them together are a few times the cloud.
+        area = (it.billboards["size"][:, 0].astype(float) ** 2).sum()
+        assert area < 7.0 * 4.0 * it.half[0] * it.half[2]
+    assert np.mean(closed) > 0.8
 
 
 @pytest.mark.parametrize(("name", "width"), [("altocumulus", 450), ("cirrocumulus", 450)])
