@@ -29,15 +29,18 @@ IMPACT_DTYPE = np.dtype(
 
 
 class ImpactList:
-    """Room for `capacity` impacts, old ones overwritten; no more than that in one frame."""
+    """Room for `capacity` impacts, old ones overwritten; no more than that in one frame.
 
-    def __init__(self, ctx: moderngl.Context, capacity: int) -> None:
+    `step`: how many drops of a container may sink in one step.
+    """
+
+    def __init__(self, ctx: moderngl.Context, capacity: int, step: int | None = None) -> None:
         self._ctx = ctx
         self.capacity = capacity
         words = np.zeros(12, np.uint32)
         words[9:11] = 1
         self.counts = ctx.buffer(data=words)
-        self.sunk = ctx.buffer(reserve=SUNK_BYTES * capacity)
+        self.sunk = ctx.buffer(reserve=SUNK_BYTES * (capacity if step is None else step))
         # A time far back, so that what was never written is old.
         empty = np.zeros(capacity, IMPACT_DTYPE)
         empty["time"] = -1e6

@@ -141,14 +141,16 @@ class RainPass:
 
     def _make_room(self, seen: _Observed, view: ViewData) -> None:
         """A list of impacts that grows with the drops; of very many, it holds the newest."""
-        wanted = self._capacity
+        wanted = step = self._capacity
         if wanted is None:
             drops = max((len(container.births) for container in view.containers), default=0)
             wanted = min(max(SMALLEST_LIST, drops // 4), LARGEST_LIST)
+            # At 10 m/s a sixteenth of the drops comes down in a step of 0.1 s, of 16 m or higher.
+            step = min(wanted, max(drops // 16, 1024))
         if seen.impacts is None or seen.impacts.capacity < wanted:
             if seen.impacts is not None:
                 seen.impacts.release()
-            seen.impacts = ImpactList(self._ctx, wanted)
+            seen.impacts = ImpactList(self._ctx, wanted, step)
 
     def _move(
         self,

@@ -11,7 +11,7 @@ layout(std430, binding = 4) readonly buffer Sunk { uvec4 sunk[]; };
 void main()
 {
     uint at = gl_GlobalInvocationID.x;
-    if (at >= min(sunk_count, impact_capacity)) return;
+    if (at >= min(sunk_count, uint(sunk.length()))) return;
     uvec4 found = sunk[at];
     uint id = found.w;
     uint k = id * 6u;

@@ -31,7 +31,7 @@ void main()
 #if defined(SHELTER) && !defined(SNOW)
     if (sinks) {
         uint at = atomicAdd(sunk_count, 1u);
-        if (at >= impact_capacity) {
+        if (at >= uint(sunk.length())) {
             atomicAdd(impact_dropped, 1u);
             return;
         }
