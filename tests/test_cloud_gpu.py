@@ -16,6 +16,7 @@ from tests.gl_host import Host, read_state
 from weather_ecs.frame import CloudLook, FrameData, SkyLight
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.gl import GL
+from weather_ecs.gpu.guard import StateGuard
 
 NEAR_CLOUD = {"position": (0.0, 30.0, -500.0)}
 FAR_CLOUD = {"position": (0.0, 200.0, -2500.0)}
@@ -278,7 +279,8 @@ def test_a_host_in_any_state_finds_it_again(ctx: moderngl.Context) -> None:
         kept.append(thing)
         return thing
 
-    with cloud_stage(ctx) as stage:
+    outer = StateGuard(ctx, gl)
+    with outer, cloud_stage(ctx) as stage:
         host = Host(ctx, gl, keep, 7)
         frame = sky_frame(rows, *shapes)
         stage.draw(frame, pitch=0.3)
@@ -289,6 +291,8 @@ def test_a_host_in_any_state_finds_it_again(ctx: moderngl.Context) -> None:
             stage.renderer.draw(view_of(frame, pitch=0.3, dt=0.2), stage.settings)
             after = read_state(gl)
             assert {k: (v, after[k]) for k, v in before.items() if after[k] != v} == {}
+        outer.reset()
+    outer.release()
     for thing in reversed(kept):
         thing.release()
     while gl.error() == 0x0506:  # the window's framebuffer was bound; there is none

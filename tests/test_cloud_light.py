@@ -27,11 +27,18 @@ from weather_ecs.gpu.cloud_scene import surround_of
 from weather_ecs.gpu.shader_loader import ProgramKey
 from weather_ecs.gpu.view_block import encode
 from weather_ecs.physics import cloud_billboard, cloud_light
+from weather_ecs.physics.cloud_images import CLOUD_IMAGES
 from weather_ecs.physics.cloud_light import Body, surround
 from weather_ecs.physics.cloud_spread import Spread
 
 NAMES = {"vs_lit": 3, "vs_shade": 3, "vs_rim": 3, "vs_relief": 3, "vs_fade": 4}
-KEY = ProgramKey(vertex="cloud.vert", varyings=(*NAMES, "gl_Position"))
+KEY = ProgramKey(
+    vertex="cloud.vert",
+    defines=(("IMAGES", len(CLOUD_IMAGES)),),
+    varyings=(*NAMES, "gl_Position"),
+)
+# Vertices of the strip 0 1 7 2 6 3 5 4 that are at the square's corners as the oracle counts them.
+STRIP_OF_SQUARE = [0, 1, 2, 3]
 CENTERS = ((-90.0, 0.0, 0.0), (60.0, 20.0, 40.0), (0.0, 110.0, -30.0))
 
 
@@ -48,16 +55,20 @@ def captured(stage: CloudStage, frame: FrameData, **camera: Any) -> dict[str, ND
         for name, unit in UNITS.items():
             if name in program:
                 program[name] = unit
+        # The corners of a square, twice, for those of the octagon.
+        square = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)] * 2, np.float32)
+        program["cloud_hulls"].write(np.tile(square, (len(CLOUD_IMAGES), 1)).tobytes())
         program["cloud_first"] = 0
         program["cloud_hazed"] = 1.0
         # Places come out as they are, but for their depth.
         program["cloud_matrix"].write(np.eye(4, dtype=np.float32).tobytes())
         count = int(passes._begins[1])
         width = sum(NAMES.values()) + 4
-        buffer = stage.ctx.buffer(reserve=count * 4 * width * 4)
+        buffer = stage.ctx.buffer(reserve=count * 8 * width * 4)
         array = stage.ctx.vertex_array(program, [])
-        array.transform(buffer, moderngl.POINTS, vertices=4, instances=count)
-        rows = np.frombuffer(buffer.read(), np.float32).reshape(count, 4, width)
+        array.transform(buffer, moderngl.POINTS, vertices=8, instances=count)
+        rows = np.frombuffer(buffer.read(), np.float32).reshape(count, 8, width)
+        rows = rows[:, STRIP_OF_SQUARE]
         array.release()
         buffer.release()
         pairs = np.frombuffer(passes._stream.texture.read(), np.uint32).reshape(-1, 2)

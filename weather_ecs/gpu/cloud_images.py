@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from weather_ecs.physics.cloud_images import CLOUD_IMAGES
 
 SIZE = 256  # texels on a side
+SOFTWARE = ("llvmpipe", "softpipe", "SwiftShader", "WARP")  # in the renderer's name
 _STEEPEST = 2.0  # slope that relief 0 and 1 stand for
 
 Image = NDArray[np.float32]
@@ -37,12 +38,40 @@ def images() -> NDArray[np.uint8]:
     return layers
 
 
+@cache
+def hulls() -> NDArray[np.float32]:
+    """(layers, 8, 2): an octagon round what each image shows, x and y in -1 to 1.
+
+    Sides are parallel to the axes and the diagonals; corners go round counter-clockwise. What is
+    drawn of an image is inside it: texels that are empty cost as much as others.
+    """
+    turns = np.arange(8) * (0.25 * np.pi)
+    ways = np.stack([np.cos(turns), np.sin(turns)], axis=1)
+    found = np.empty((len(CLOUD_IMAGES), 8, 2), np.float32)
+    for layer, cover in enumerate(images()[..., 3]):
+        seen = cover > 0
+        places = np.stack([_X[seen], _Y[seen]], axis=1)
+        reach = (places @ ways.T).max(axis=0) + 2.0 / SIZE
+        after = np.roll(reach, -1)
+        # Where two neighbouring sides meet, at the sine of the 45 degrees between them.
+        across = (after - reach * np.sqrt(0.5)) / np.sqrt(0.5)
+        normals = np.stack([-ways[:, 1], ways[:, 0]], axis=1)
+        found[layer] = ways * reach[:, None] + normals * across[:, None]
+    found.setflags(write=False)
+    return found
+
+
 def image_array(ctx: moderngl.Context) -> moderngl.TextureArray:
-    """The images on the GPU, filtered trilinearly; the caller releases it."""
+    """The images on the GPU; the caller releases it.
+
+    Filtered trilinearly, but on a rasteriser in software, where that costs half as much again.
+    """
     data = images()
     texture = ctx.texture_array((SIZE, SIZE, len(data)), 4, data.tobytes())
     texture.build_mipmaps()
-    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+    slow = any(name in ctx.info["GL_RENDERER"] for name in SOFTWARE)
+    nearer = moderngl.LINEAR_MIPMAP_NEAREST if slow else moderngl.LINEAR_MIPMAP_LINEAR
+    texture.filter = (nearer, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
     return texture
 
@@ -82,7 +111,9 @@ def _texels(
         shade,
         cover * rim,
     )
-    return np.rint(np.clip(np.stack(parts, -1), 0.0, 1.0) * 255.0).astype(np.uint8)
+    texels = np.rint(np.clip(np.stack(parts, -1), 0.0, 1.0) * 255.0).astype(np.uint8)
+    texels[texels[..., 3] < 4, 3] = 0
+    return texels
 
 
 def _knobs(rng: np.random.Generator, elongation: float) -> tuple[Image, Image]:
@@ -124,7 +155,7 @@ def _raise(height: Image, x: float, y: float, z: float, radius: float) -> None:
 def _puff(rng: np.random.Generator, number: int) -> NDArray[np.uint8]:
     height, coarse = _knobs(rng, 1.0 + 0.10 * (number % 3))
     fine, frayed = _noise(rng, 1.5), _noise(rng, 1.9)
-    body = np.maximum(height, -0.1)
+    body = np.maximum(height, -0.13)
     smooth = _blur(body, 1.5)
     # The rim is crisp in some places and frays in others, as where dry air is drawn in.
     cover = 0.96 * _step(-0.04, 0.46, smooth + 0.045 * fine + 0.07 * frayed)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from weather_ecs.frame import ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.cloud_blocks import CLOUD_VIEW
-from weather_ecs.gpu.cloud_images import image_array
+from weather_ecs.gpu.cloud_images import hulls, image_array
 from weather_ecs.gpu.cloud_impostors import Impostors, Plan
 from weather_ecs.gpu.cloud_rays import CloudRays
 from weather_ecs.gpu.cloud_scene import CloudScene, haze_of, rows_of, scene_of, surround_of
@@ -21,10 +21,12 @@ from weather_ecs.gpu.cloud_store import CloudStore
 from weather_ecs.gpu.cloud_stream import CloudStream
 from weather_ecs.gpu.row_texture import RowTexture
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.physics.cloud_images import CLOUD_IMAGES
 from weather_ecs.physics.cloud_light import Surround
 
-BILLBOARDS = ProgramKey(vertex="cloud.vert", fragment="cloud.frag")
-SOFT = ProgramKey(vertex="cloud.vert", fragment="cloud.frag", defines=("SOFT",))
+IMAGES = ("IMAGES", len(CLOUD_IMAGES))
+BILLBOARDS = ProgramKey(vertex="cloud.vert", fragment="cloud.frag", defines=(IMAGES,))
+SOFT = ProgramKey(vertex="cloud.vert", fragment="cloud.frag", defines=(IMAGES, "SOFT"))
 QUADS = ProgramKey(vertex="cloud_quad.vert", fragment="cloud_quad.frag")
 # Units of the samplers; the same in all programs.
 UNITS = {
@@ -37,7 +39,8 @@ UNITS = {
     "cloud_quads": 6,
     "scene_depth": 7,
 }
-SOFT_REACH = 1500.0  # m, to which billboards are soft where they meet the scene
+SOFT_HEIGHT = 400.0  # m over the ground, below which billboards are soft where they meet the scene
+SOFT_REACH = 1500.0  # m, as far as they are
 STILL = 1.0 / 60.0  # s, that a draw counts for at least: a paused sky still takes over its light
 
 
@@ -79,6 +82,8 @@ class CloudPass:
             for name, unit in UNITS.items():
                 if name in program:
                     program[name] = unit
+            if "cloud_hulls" in program:
+                program["cloud_hulls"].write(hulls().tobytes())
         self._rays = CloudRays(ctx, self._shaders, UNITS)
         return self._store
 
@@ -184,13 +189,15 @@ class CloudPass:
         begin, end = int(self._begins[first]), int(self._begins[last])
         if end > begin:
             self._programs[key]["cloud_first"] = begin
-            self._arrays[key].render(moderngl.TRIANGLE_STRIP, vertices=4, instances=end - begin)
+            self._arrays[key].render(moderngl.TRIANGLE_STRIP, vertices=8, instances=end - begin)
 
-    @property
-    def near_scene(self) -> bool:
+    def meets_scene(self, view: ViewData) -> bool:
         """Whether the last update has left billboards that may meet the scene."""
         scene, real = self._scene, self._plan_now.real
-        return bool((scene.away[real] - scene.reach[real] < SOFT_REACH).any())
+        near = scene.away[real] - scene.reach[real] < SOFT_REACH
+        height = scene.center[real, 1] + scene.base[real] + view.position[1]
+        low = height < view.frame.profile.ground + SOFT_HEIGHT * view.frame.cloud_look.softness
+        return bool((near & low).any())
 
     def draw(self, view: ViewData, depth: moderngl.Texture | None) -> None:
         """Draw the visible clouds. Blending, the depth test and no depth writes are the caller's.

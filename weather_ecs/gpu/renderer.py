@@ -256,7 +256,7 @@ class Renderer:
         self._ripples.draw(view, depth)
 
     def _draw_clouds(self, view: ViewData, viewport: tuple[int, int, int, int]) -> None:
-        depth = self._copy_depth() if self._clouds.near_scene else None
+        depth = self._copy_depth() if self._clouds.meets_scene(view) else None
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
         self._clouds.set_origin(viewport[0], viewport[1])

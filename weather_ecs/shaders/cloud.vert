@@ -1,10 +1,11 @@
-// Billboards of clouds, four vertices each, of a stream of (billboard, cloud) that is sorted.
+// Billboards of clouds, eight vertices each, of a stream of (billboard, cloud) that is sorted.
 #include "cloud_row.glsl"
 #include "cloud_light.glsl"
 
 uniform usampler2D cloud_stream;
 uniform int cloud_first;  // of this draw in the stream
 uniform mat4 cloud_matrix;  // from camera-relative places to the picture
+uniform vec2 cloud_hulls[8 * IMAGES];  // octagons round what the images show
 uniform float cloud_hazed;  // 1; 0 while an impostor is made
 
 out vec3 vs_uv;
@@ -36,7 +37,9 @@ void main()
     vec3 right = vec3(-ahead.y, 0.0, ahead.x);
     vec3 up = cross(right, way);
     float height = length(vec2(size.y * level, size.x * way.y));
-    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    // Strip of an octagon: 0 1 7 2 6 3 5 4.
+    int side = (gl_VertexID & 1) == 1 ? (gl_VertexID + 1) >> 1 : (8 - (gl_VertexID >> 1)) & 7;
+    vec2 corner = cloud_hulls[8 * int(b.image) + side];
     vec2 turn = vec2(cos(b.turn), sin(b.turn));
     // Image axes to level world axes, as (x, z) columns, then to the picture's.
     vec2 image_x = vec2(turn.x * cloud.mirror, turn.y);
