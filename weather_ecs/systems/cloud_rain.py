@@ -22,10 +22,11 @@ from weather_ecs.systems.clouds import STEPS, layer_state
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.state import WeatherState
 
-MOST = 32  # areas that clouds carry at once; of more clouds the oldest rain
+MOST = 24  # areas that clouds carry at once; of more clouds the oldest rain
 FOOT = 0.25  # of a cloud's height: its rain falls from what reaches below
 SHRINK = 0.9  # of that foot's radii
 SOFT = 0.35  # of the smaller radius
+LEVELS = 8  # of a rate: changes in small steps would let the ground be computed every second
 CLOSED = 0.9  # of the rectangle that all the areas of a layer cover together at most
 
 _RAIN_FIELDS = ("center", "radii", "rain_rate", "heading", "soft_edge", "ceiling", "velocity")
@@ -112,7 +113,7 @@ class CloudRainSystem:
                 vx = cloud.velocity[0] + share * state.wind[0]
                 vz = cloud.velocity[1] + share * state.wind[2]
                 foot = self._foot(state, model, cloud.number)
-                rate = model.rain_rate * cloud.growth * cloud.opacity
+                rate = model.rain_rate * _level(cloud.growth * cloud.opacity)
                 where = (cloud.scale, cloud.heading, cloud.position)
                 yield (uid, -1), shaft_of(foot, *where, rate, (vx, vz))
 
@@ -139,7 +140,7 @@ class CloudRainSystem:
             come = min(now / kind.sky, 1.0) if kind.sky > 0.0 else 1.0
             foot = self._foot(state, model, kind.number)
             place = (float(x[k]), base[k], float(z[k]))
-            rate = model.rain_rate * whole[k] * come
+            rate = model.rain_rate * _level(whole[k] * come)
             shaft = shaft_of(foot, scale[k], 0.0, place, rate, record.velocity)
             found.append(((record.uid, int(array.serial[row])), shaft))
         covered = sum(math.pi * s.radii[0] * s.radii[1] for _, s in found)
@@ -155,6 +156,10 @@ class CloudRainSystem:
                 self._feet.clear()
             known = self._feet[shape.key] = foot_of(shape.made)
         return known
+
+
+def _level(share: float) -> float:
+    return round(share * LEVELS) / LEVELS
 
 
 def _smaller(shaft: Shaft, factor: float) -> Shaft:

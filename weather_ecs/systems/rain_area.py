@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.clock import STEP
 from weather_ecs.components import RainArea
-from weather_ecs.components._base import FAR, set_unchecked
+from weather_ecs.components._base import FAR, _set
 from weather_ecs.frame import AREA_DTYPE, WindProfile
 from weather_ecs.physics.front import SETTLED, Dry
 from weather_ecs.physics.wind import height_share
@@ -62,10 +62,16 @@ class RainAreaSystem:
         """Move the areas by one fixed step; at the end of the world they stop."""
         found = alive(RainArea, state.uids)
         state.fronts.step(found)
+        wind, profile, moved = state.wind, state.profile, False
         for _, area in found:
-            vx, vz = drift_velocity(area, state.wind, state.profile)
+            vx, vz = drift_velocity(area, wind, profile) if area.drift > 0.0 else area.velocity
             if vx or vz:
                 x, z = area.center
-                x = min(max(x + vx * STEP, -FAR), FAR)
-                z = min(max(z + vz * STEP, -FAR), FAR)
-                set_unchecked(area, "center", (x, z))
+                x += vx * STEP
+                z += vz * STEP
+                if not (-FAR <= x <= FAR and -FAR <= z <= FAR):
+                    x, z = min(max(x, -FAR), FAR), min(max(z, -FAR), FAR)
+                _set(area, "center", (x, z))
+                moved = True
+        if moved:
+            RainArea._revision[0] += 1
