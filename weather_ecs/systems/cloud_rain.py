@@ -22,6 +22,7 @@ from weather_ecs.systems.clouds import STEPS, layer_state
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.state import WeatherState
 
+MOST_FEET = 1000  # kept
 MOST = 24  # areas that clouds carry at once; of more clouds the oldest rain
 FOOT = 0.25  # of a cloud's height: its rain falls from what reaches below
 SHRINK = 0.9  # of that foot's radii
@@ -152,8 +153,10 @@ class CloudRainSystem:
         shape = state.cloud_shapes.get(model, number)
         known = self._feet.get(shape.key)
         if known is None:
-            if len(self._feet) > 1000:
+            if len(self._feet) > MOST_FEET:
                 self._feet.clear()
+                if not state.drawn:  # else who draws forgets what is out of use
+                    state.cloud_shapes.prune(set())
             known = self._feet[shape.key] = foot_of(shape.made)
         return known
 
