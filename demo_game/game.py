@@ -11,11 +11,12 @@ import esper
 import moderngl
 
 from demo_game.camera import Pose, projection_matrix, view_matrix
+from demo_game.cloudscape import Cloudscape, game_layers
 from demo_game.collision import Colliders
 from demo_game.compass import compass
 from demo_game.entities import Entities, direction, fog_left, fog_overhead
 from demo_game.letter import Letter, State
-from demo_game.mood import TURN_STEP, WIND_STEP, Mood, MoodChanger, preset_mood
+from demo_game.mood import AIRS, TURN_STEP, WIND_STEP, Mood, MoodChanger, preset_mood
 from demo_game.place import Place
 from demo_game.player import Intent, Player
 from demo_game.render import Environment, SceneRenderer
@@ -31,6 +32,7 @@ from weather_ecs.presets import PRESETS
 WIND_HEADING = math.radians(-22.5)  # to the east, a little south
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings its own clouds
+SHEET_SHARE = 0.35  # more where the cloud is one sheet
 SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
 COMPARED_TOURS = ("walk", "run", "crossing")
 SNOW_BELOW = 4.0  # degrees Celsius at which there may be some
@@ -38,8 +40,6 @@ SKY_HEIGHT = 60.0  # m, above whatever shelters
 START = (0.0, 70.0)  # (x, z), m, where a player begins, looking north
 AGAIN = (6.0, -60.7)  # (x, z), m, where one begins anew: inside the cabin's door
 HAND = (1.1, 0.35)  # m above the feet and before the body, where the letter is held
-# Presets whose point is the air: a tour's scenery follows these, and not the rains.
-AIRS = frozenset(("sleet", "light_snow", "heavy_snow", "blizzard", "fog"))
 
 _numbers = itertools.count(1)
 STILL = Intent()
@@ -76,6 +76,7 @@ class Game:
         self.letter = Letter(self.place.letter, self.place.mailbox)
         self._showers, self._lull, self._news = Showers(seed), False, [FETCH]
         self._entities = Entities(self.place, self._mood(), self._light(), SCENE_START)
+        self._scape = Cloudscape(self._scenery().state, self._entities.areas(), game_layers())
         self.scene = SceneRenderer(context, self.place, settings.quality)
         try:
             self.weather = self._make_weather()
@@ -100,9 +101,13 @@ class Game:
         esper.switch_world(self._world)
         self.time += dt
         self.mood.update(dt)
+        if self._scape.is_running:
+            self.mood.follow_climate(self._scape.state)
         self.sky.update(dt)
         share = self._showers.share(self.time) if self.tour is None else 1.0
         self._entities.update(self._mood(), self._light(), self._scene_time, share)
+        rates = [rate for _, rate in self._entities.rates(self._scenery())]
+        self._scape.update(dt, self._scenery().state, rates)
         if self.tour is None:
             self.player.update(dt, intent)
         self.pose = self._pose()
@@ -140,8 +145,14 @@ class Game:
 
     def choose_preset(self, name: str) -> str:
         """Change the weather; returns what to tell the player."""
+        self._scape.stop()
         self.mood.choose(name)
         return PRESETS[name].description
+
+    def run_climate(self) -> str:
+        """Let the climate run, or run back; returns what to tell the player."""
+        onwards = self._scape.run()
+        return "The weather turns to storm" if onwards else "The weather clears up"
 
     def blow(self, steps: int) -> str:
         """Strengthen or weaken the wind by keys; returns what to tell the player."""
@@ -231,7 +242,8 @@ class Game:
         return replace(self.mood.current, visibility=self._scenery().visibility)
 
     def _overcast(self) -> float:
-        return SKY_LEAST + SKY_SHARE * self._scenery().overcast
+        mood = self._scenery()
+        return SKY_LEAST + (SKY_SHARE + SHEET_SHARE * mood.closed) * mood.overcast
 
     def _light(self) -> Any:
         light = self.sky.light(self._overcast())

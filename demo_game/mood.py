@@ -12,6 +12,15 @@ TURN_TIME = 1.0  # s for a change of the wind by hand
 STRONGEST_WIND = 24.0  # m/s, by hand
 WIND_STEP = 2.0  # m/s per key
 TURN_STEP = math.radians(22.5)  # per key
+# Presets whose point is the air; the others rain out of clouds of their own.
+AIRS = frozenset(("sleet", "light_snow", "heavy_snow", "blizzard", "fog"))
+
+# State of the skies; a rain of the walk is a shower that falls from broken clouds.
+STATES = {
+    "clear": 0.25, "drizzle": 0.5, "light": 0.5, "moderate": 0.5, "heavy": 0.5, "cloudburst": 0.5,
+    "sleet": 0.75, "light_snow": 0.75, "heavy_snow": 0.75, "blizzard": 0.75, "fog": 0.0,
+}  # fmt: skip
+CLIMATE = "climate"  # in place of a preset's name while the climate runs
 
 
 @dataclass(frozen=True)
@@ -25,6 +34,8 @@ class Mood:
     temperature: float = 15.0  # degrees Celsius
     humidity: float = 0.8  # 0..1
     visibility: float = 50_000.0  # m, of the air without what falls
+    closed: float = 0.0  # 0..1: how far the cloud is one sheet, and not only over the rain
+    state: float = 0.0  # of the skies, 0 clear to 1 storm
 
 
 def preset_mood(name: str, wind_heading: float) -> Mood:
@@ -38,7 +49,16 @@ def preset_mood(name: str, wind_heading: float) -> Mood:
         preset.temperature,
         preset.humidity,
         preset.visibility,
+        float(name in AIRS),
+        STATES[name],
     )
+
+
+def climate_mood(state: float, wind_heading: float) -> Mood:
+    """The mood while the climate runs: the rain is the clouds' own."""
+    clear, storm = preset_mood("clear", wind_heading), preset_mood("cloudburst", wind_heading)
+    mood = blend(clear, storm, state)
+    return replace(mood, rain_rate=0.0, closed=min(max(2.0 * state - 0.6, 0.0), 1.0), state=state)
 
 
 def blend(before: Mood, after: Mood, share: float) -> Mood:
@@ -51,6 +71,8 @@ def blend(before: Mood, after: Mood, share: float) -> Mood:
         before.temperature + share * (after.temperature - before.temperature),
         before.humidity + share * (after.humidity - before.humidity),
         _blend_visibility(before.visibility, after.visibility, share),
+        before.closed + share * (after.closed - before.closed),
+        before.state + share * (after.state - before.state),
     )
 
 
@@ -92,6 +114,16 @@ class MoodChanger:
         target = preset_mood(preset, self._to.wind_heading)
         self.preset = preset
         self._go(target, CHANGE_TIME)
+
+    def follow_climate(self, state: float) -> None:
+        """Go by the state of the skies, gliding there if it was a preset so far."""
+        target = climate_mood(state, self._to.wind_heading)
+        if self.preset != CLIMATE:
+            self.preset = CLIMATE
+            self._go(target, CHANGE_TIME)
+        self._to = target
+        if not self.changing:
+            self.current = target
 
     def blow(self, by: float) -> None:
         """Strengthen the wind by so many m/s, within 0 and STRONGEST_WIND."""

@@ -13,7 +13,8 @@ import pytest
 
 from demo_game.camera import Pose, projection_matrix, view_matrix
 from demo_game.entities import CLEAREST, clearest, fog_left, fog_overhead, shown
-from demo_game.game import AIRS, Game
+from demo_game.game import Game
+from demo_game.mood import AIRS
 from demo_game.place import Place, layout, sight_posts
 from demo_game.settings import Settings
 from demo_game.skies import TIMES, cover, hide, light
