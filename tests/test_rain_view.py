@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.rain_frames import area, camera, frame, quality
-from weather_ecs.frame import ContainerData, DropLook, FrameData, VeilData, ViewData
+from weather_ecs.frame import AirData, ContainerData, DropLook, FrameData, VeilData, ViewData
 from weather_ecs.physics import lod
 from weather_ecs.physics.container import Area, ContainerSettings, place
 from weather_ecs.physics.drops import drop_density, extinction
@@ -397,3 +397,23 @@ def test_what_drops_show_grows_with_their_number_and_falls_with_the_rain():
     # the line from 1 to 0 that has the integral of that, 7/8 of the reach.
     assert by_count[-1] == pytest.approx(2.0 * 0.875 * LOOK.reach, rel=0.01)
     assert shown_distance(replace(LOOK, opacity=0.0), 25.0, 1000) == 0.0
+
+
+def test_containers_and_veils_know_when_the_rain_began() -> None:
+    dry = (20.0, 1e9, 0.0, 0.0)
+    seen = frame(area(3), area(5, (10.0, 0.0)), fronts={5: dry})
+    view = RainView(1).view(seen, camera(), 0, quality())
+    assert {c.area: c.dry for c in view.containers} == {3: (0.0, 0.0, 0.0, 0.0), 5: dry}
+    assert [veil.dry for veil in view.veils] == [(0.0, 0.0, 0.0, 0.0), dry]
+    assert view.veils[0].slope == pytest.approx(4.1 * 25.0**-0.21)
+
+
+def test_snow_that_begins_fades_in_with_its_water() -> None:
+    cold, dry = AirData(-5.0, 0.9, -5.5, 1.0), (60.0, 1e9, 0.0, 0.0)
+    loads = []
+    for fronts in ({}, {0: dry}):
+        seen = frame(area(rain_rate=3.0), air=cold, fronts=fronts)
+        (container, *_) = RainView(1).view(seen, camera(), 0, quality()).containers
+        assert container.dry == (0.0, 0.0, 0.0, 0.0)
+        loads.append(container.load)
+    assert 0.0 < loads[1] < 0.9 * loads[0]

@@ -23,7 +23,7 @@ class RainContainer(Component):
     width: float = 4.0  # 0.05 to 20, factor on the drop's diameter
     density: float = 3.7  # 0 to 100, factor on how much the drops cover: 1 is what nature shows
     brightness: float = 1.6  # 0 to 10, factor on the light of the sky that drops show
-    opacity: float = 0.6  # 0 to 1, greatest opacity of one streak
+    opacity: float = 0.6  # 0 to 1, greatest opacity of one streak, of a drop of 1.5 mm or more
     veil: float = 2.5  # 0 to 10, factor on the extinction of the rain beyond the container
     fastest: float = 8.0  # m/s, 0 to 1000, of the observer's own speed that slants the streaks
 

@@ -22,6 +22,7 @@ from .lod import rim_fade, size_factor, weight_shape
 from .rain_step import diameters, fall_speeds, to_container
 
 LANDED = 1024.0  # m/s upwards: no velocity but the mark of a drop that has hit something
+BOLD = 1.5e-3  # m, from which on a drop may have the look's greatest opacity
 CLOSEST = 0.1  # m in front of the camera
 FAINTEST = 0.002  # opacity below which nothing is drawn
 OUTSIDE = 1.02  # in normalised device coordinates, of both ends
@@ -140,7 +141,7 @@ def streaks(p: NDArray, v: NDArray, birth: NDArray, view: StreakView, law: Strea
     scale = view.pixels / np.where(drawn, head[:, 3], 1.0)
     pixels = width * scale
     area = drawn_area(h, tail, np.maximum(pixels, 1.0), view) / scale**2
-    most = law.opacity * np.minimum(pixels, 1.0)
+    most = law.opacity ** np.maximum(BOLD / diameter, 1.0) * np.minimum(pixels, 1.0)
     solid = np.minimum(0.25 * math.pi * diameter**2 * weight * law.density / area, most)
 
     near = np.clip((head[:, 3] - 0.3) / 1.3, 0.0, 1.0)

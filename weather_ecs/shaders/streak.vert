@@ -20,6 +20,8 @@ out float vs_width; // pixels; 0 where there is nothing to draw
 // Mean over a streak of what streak.frag leaves of its opacity: the rim, then both ends.
 const float PROFILE = (1.0 - 0.4 / 3.0) * (1.0 - 0.5 / 3.0 - 0.5 / 6.0);
 
+const float BOLD = 1.5e-3;  // m, from which on a drop may have the look's greatest opacity
+
 void main()
 {
     vs_width = 0.0;
@@ -55,7 +57,9 @@ void main()
     float span = length((h - tail.xy / tail.w) * 0.5 * view_size.xy);
     float drawn = PROFILE * wide * max(span, wide);
     float covered = 0.785398 * diameter * diameter * scale * scale * weight * drop_load.w;
-    float opacity = min(covered / drawn, drop_look.w * min(pixels, 1.0));
+    // A small drop's streak is the fainter, not only the shorter: drizzle is no thin heavy rain.
+    float greatest = pow(drop_look.w, max(BOLD / diameter, 1.0));
+    float opacity = min(covered / drawn, greatest * min(pixels, 1.0));
     opacity *= smoothstep(0.3, 1.6, head.w);
     if (opacity < 0.002) return;
     vs_width = wide;

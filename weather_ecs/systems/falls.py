@@ -10,11 +10,12 @@ import numpy as np
 
 from weather_ecs.frame import RAIN, SNOW, AirData, DropLook, SnowLook
 from weather_ecs.physics.container import size_factor, weight_shape
-from weather_ecs.physics.drops import drop_density, extinction
+from weather_ecs.physics.drops import drop_density, extinction, terminal_speed
+from weather_ecs.physics.front import steepness
 from weather_ecs.physics.rain_step import law_of
 from weather_ecs.physics.snow import snow_extinction
 from weather_ecs.physics.snowfall import snowfall
-from weather_ecs.physics.streak import PROFILE
+from weather_ecs.physics.streak import BOLD, PROFILE
 
 _HEAVY = 2.5  # mm/h of water, from which snow is heavy
 
@@ -59,16 +60,17 @@ def falls(rate: float, air: AirData, look: SnowLook) -> tuple[Fall, ...]:
 def shown_distance(look: DropLook, rain_rate: float, count: int) -> float:
     """Distance (m) at which the share of the extinction that the drops show has fallen to 0.
 
-    The share falls about linearly; the line has the integral that the share of a drop of 1.5 mm
+    The share falls about linearly; the line has the integral that the share of a middling drop
     has: what a streak can show is its area times its greatest opacity.
     """
     d = np.linspace(0.01, 0.99, 33)
-    diameter = 1.5e-3
+    # Of all drops, those of up to 2.67 over the slope take half of the light.
+    diameter = min(max(2.67 / steepness(rain_rate), 0.7), 2.0) * 1e-3
     width = diameter * size_factor(d, look.size_maximum) * look.width
     load = float(drop_density(rain_rate)) * look.density * 0.7854 * diameter**2
-    length = 6.0 * look.exposure
+    length = float(terminal_speed(diameter * 1e3)) * look.exposure
     area = PROFILE * width * np.maximum(length, width)  # as shaders/streak.geom
-    return _shown(look, load, area, look.opacity, count)
+    return _shown(look, load, area, look.opacity ** max(BOLD / diameter, 1.0), count)
 
 
 @lru_cache(maxsize=256)
