@@ -30,7 +30,7 @@ vec3 weather_fog(vec3 light, float distance)
 }
 
 // The same with what falls at the eye, for pictures over which the weather draws no veil of rain:
-// reflections, maps, distant scenery, or a weather of quality without veils.
+// reflections, maps, or a weather of a quality without veils.
 vec3 weather_fog_and_rain(vec3 light, float distance)
 {
     return mix(weather_fog_color.rgb, light, exp(-weather_fog_law.x * distance));
