@@ -27,8 +27,8 @@ from weather_ecs.components import (
 CENTER = (0.0, -70.0)  # (x, z), m, of the rain area that the walk leads through
 RADII = (70.0, 45.0)  # m
 SOFT_EDGE = 12.0  # m
-CEILING = 120.0  # m, low enough that the cloud is in the picture with its rain
-SHOWER_CEILING = 70.0  # m
+CEILING = 62.0  # m, low enough that the cloud is in the picture with its rain
+SHOWER_CEILING = 80.0  # m
 
 SHOWER_RADII = (85.0, 48.0)  # m, of the small one that passes in the distance
 SHOWER_EDGE = 46.0  # m

@@ -11,7 +11,7 @@ import esper
 import moderngl
 
 from demo_game.camera import Pose, projection_matrix, view_matrix
-from demo_game.cloudscape import Cloudscape, game_layers
+from demo_game.cloudscape import Cloudscape, all_layers, light_layers
 from demo_game.collision import Colliders
 from demo_game.compass import compass
 from demo_game.entities import Entities, direction, fog_left, fog_overhead
@@ -25,7 +25,7 @@ from demo_game.showers import Showers
 from demo_game.skies import SkyChanger, hide
 from demo_game.tours import Tour
 from weather_ecs import Weather
-from weather_ecs.components import RainArea
+from weather_ecs.components import RainArea, SkyLayer
 from weather_ecs.errors import WeatherError
 from weather_ecs.presets import PRESETS
 
@@ -35,6 +35,7 @@ SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings 
 SHEET_SHARE = 0.35  # more where the cloud is one sheet
 SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
 COMPARED_TOURS = ("walk", "run", "crossing")
+LIGHT = ("low", "medium", "auto")  # qualities at which a measured tour has but some cumulus
 SNOW_BELOW = 4.0  # degrees Celsius at which there may be some
 SKY_HEIGHT = 60.0  # m, above whatever shelters
 START = (0.0, 70.0)  # (x, z), m, where a player begins, looking north
@@ -76,7 +77,7 @@ class Game:
         self.letter = Letter(self.place.letter, self.place.mailbox)
         self._showers, self._lull, self._news = Showers(seed), False, [FETCH]
         self._entities = Entities(self.place, self._mood(), self._light(), SCENE_START)
-        self._scape = Cloudscape(self._scenery().state, self._entities.areas(), game_layers())
+        self._scape = Cloudscape(self._scenery().state, self._entities.areas(), self._layers())
         self.scene = SceneRenderer(context, self.place, settings.quality)
         try:
             self.weather = self._make_weather()
@@ -223,6 +224,11 @@ class Game:
             quality=self.settings.quality,
             backend=self.settings.backend,
         )
+
+    def _layers(self) -> list[SkyLayer]:
+        """The sky: on the tours that are measured one that costs little, if that is asked for."""
+        compared = self.tour is not None and self.tour.name in COMPARED_TOURS
+        return light_layers() if compared and self.settings.quality in LIGHT else all_layers()
 
     @property
     def _scene_time(self) -> float:

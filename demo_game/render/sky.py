@@ -12,7 +12,7 @@ from demo_game.place import paint
 
 from .environment import Environment
 from .frame_block import FrameBlock
-from .programs import compile_program, release_all, scissor, set_matrix
+from .programs import compile_program, release_all, scissor, set_matrix, set_uniforms
 
 JUMP = 25.0  # m the camera moves in one map's time that calls for a fresh one at once
 CHANGE = 0.12  # likewise for colours and cover
@@ -51,7 +51,7 @@ class Sky:
     def paint(self, camera: NDArray, environment: Environment) -> None:
         """Paint this frame's rows, or all of them where the world has jumped."""
         self._state = _state(camera, environment)
-        self._bake["cloud_map"] = 0
+        set_uniforms(self._bake, cloud_map=0)
         self._clouds.use(0)
         self.ctx.enable_only(moderngl.NOTHING)
         if self._painted is None or _jumped(self._painted, self._state):

@@ -1,10 +1,13 @@
-// Paints the sky's map: gradient, sun, drifting clouds, and a heavy cloud above every rain area.
+// Paints the sky's map: gradient, sun, mist. PAINTED: also drifting clouds, and a heavy cloud above
+// every rain area, where the weather's own are too dear.
 #include "frame.glsl"
 #include "sky_map.glsl"
 #include "tone.glsl"
 #include "fog_light.glsl"
 
+#ifdef PAINTED
 uniform sampler2D cloud_map;
+#endif
 
 in vec2 v_uv;
 out vec4 out_color;
@@ -25,6 +28,7 @@ vec3 air(vec3 d) {
     return mix(color, mist, exp(-up * 14.0) * 0.7);
 }
 
+#ifdef PAINTED
 // Clouds on flat ceilings, bent down to the horizon. rgb colour, a cover.
 vec4 layer(vec3 d, float cover) {
     float up = max(d.y, 0.0) + 0.09;
@@ -93,17 +97,21 @@ vec4 storm(vec3 d, int i) {
     return vec4(color, share * cloud.w);
 }
 
+#endif
+
 void main() {
     vec2 disc = (v_uv - 0.5) / SKY_RIM;
     float r2 = dot(disc, disc);
     vec3 d = vec3(2.0 * disc.x, 1.0 - r2, 2.0 * disc.y) / (1.0 + r2);
     vec3 color = air(d);
+#ifdef PAINTED
     vec4 high = layer(d, zenith_color.w);
     color = mix(color, high.rgb, high.a);
     for (int i = 0; i < int(fog_color.w); i++) {
         vec4 cloud = storm(d, i);
         color = mix(color, cloud.rgb, cloud.a);
     }
+#endif
     color = mix(color, fog_color.rgb, exp(-max(d.y, 0.0) * 24.0) * 0.35);
     // Fog overhead: a layer on a round Earth.
     float up = max(d.y, 0.0);
