@@ -179,7 +179,7 @@ class Impostors:
         largest: height of a tile.
         """
         bounds = picture_bounds(scene, shape, index)
-        need = max(bounds.half[0], 2.0 * bounds.half[1]) * scene.unit
+        need = max(bounds.half[0], 2.0 * bounds.half[1]) * scene.unit * shape.detail
         tile = self._take(_side(need, largest))
         if tile is None:
             return None

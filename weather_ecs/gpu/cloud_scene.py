@@ -31,7 +31,8 @@ class CloudScene:
     away: Floats  # (n,)
     visible: NDArray[np.bool_]
     order: NDArray[np.intp]  # of those that are visible, back to front
-    pixels: Floats  # (n,) half of the greater of width and twice the height in the picture
+    # (n,) half of the greater of width and twice the height in the picture, as far as they show.
+    pixels: Floats
     unit: float  # pixels that a unit of width at unit depth takes
     parallel: bool  # the camera's rays are: no impostors then
 
@@ -63,6 +64,7 @@ def scene_of(view: ViewData, store: CloudStore, height: int) -> CloudScene:
     wide, high = cloud_view.silhouette(center, half)
     unit = cloud_view.pixels_per_radian(view.projection, height)
     pixels = np.maximum(wide, 2.0 * high) * unit / np.maximum(away, 1.0)
+    pixels *= store.detail[shapes]
     parallel = bool(view.projection[3, 3] == 1.0)
     return CloudScene(
         clouds, shapes, center, half, store.base[shapes] * scale,

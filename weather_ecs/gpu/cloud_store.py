@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.frame import CloudShapeData
+from weather_ecs.physics.cloud_images import IMAGE_DETAIL
 from weather_ecs.physics.cloud_spread import Spread
 
 ROW = 256  # items in a row of a texture
@@ -27,6 +28,7 @@ class StoredShape:
     position: NDArray[np.float32]  # (n, 3) of the billboards, m
     spread: Spread
     reach: float  # m, of the sphere round the centre that holds every billboard
+    detail: float  # 0 to 1: how much of the picture's resolution it needs
     before: NDArray[np.float32]  # absorptions that it comes from
     fresh: float = 1.0  # share of those it has now
     versions: int = 0  # counts what changes its picture
@@ -96,7 +98,7 @@ class CloudStore:
         self.seeds = ItemTexture(ctx, 2)
         self.shapes: list[StoredShape] = []
         self.half = np.zeros((0, 3))
-        self.base = self.reach = self.thick = np.zeros(0)
+        self.base = self.reach = self.thick = self.detail = np.zeros(0)
         self._known: dict[int, StoredShape] = {}
         self._tuple: tuple[CloudShapeData, ...] = ()
         self._fading: set[int] = set()
@@ -118,6 +120,7 @@ class CloudStore:
             self.half = np.array([s.half for s in stored]).reshape(-1, 3)
             self.base = np.array([s.base for s in stored])
             self.reach = np.array([s.reach for s in stored])
+            self.detail = np.array([s.detail for s in stored])
             self.thick = np.array([1.0 / max(s.data.penetration, 1e-3) for s in stored])
         if len(self._known) > len(shapes):
             living = {data.key for data in shapes}
@@ -152,6 +155,7 @@ class CloudStore:
             position,
             spread,
             float((np.linalg.norm(position, axis=1) + reach.max(1)).max()) if len(b) else 1.0,
+            float(np.take(IMAGE_DETAIL, b["image"]).mean()) if len(b) else 1.0,
             np.asarray(data.absorbed, np.float32),
         )
         self._known[data.key] = shape

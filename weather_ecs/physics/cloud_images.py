@@ -31,6 +31,10 @@ CLOUD_IMAGES: tuple[str, ...] = (
     "sheet_3",
 )
 
+# Of the picture's resolution, what an image of each family needs: without an outline, less.
+DETAIL = {"puff": 1.0, "ragged": 0.8, "wisp": 0.7, "streak": 0.6, "sheet": 0.35}
+IMAGE_DETAIL: tuple[float, ...] = tuple([DETAIL[name.split("_")[0]] for name in CLOUD_IMAGES])
+
 
 def image_index(name: str) -> int:
     """Layer of the texture array. Raises ValueError for a name that is not in CLOUD_IMAGES."""
