@@ -309,3 +309,16 @@ def test_everything_is_given_back(ctx: moderngl.Context) -> None:
         stage.renderer.forget(0)
         stage.draw(sky_frame(rows, *shapes), pitch=0.3)
     assert living(gl) == before
+
+
+def test_in_a_cloud_the_view_is_white_and_one_s_own_wings_are_free(stage: CloudStage) -> None:
+    data = shape(size=(400.0, 300.0, 400.0), billboards=12, width=160.0, absorbed=0.2)
+    frame = sky_frame(clouds({"position": (0.0, 0.0, 0.0)}), data)
+    inside = stage.draw(frame, position=(0.0, 1.0, 20.0))
+    assert (stage.cover(inside) > 0.15).mean() > 0.99
+    assert inside.std(axis=(0, 1)).max() < 0.08
+    near = stage.draw(frame, position=(0.0, 1.0, 20.0), depth=0.5)  # 0.2 m off
+    assert stage.cover(near).max() == 0.0
+    plain = sky_frame(frame.clouds, data, cloud_look=CloudLook(plain=True))
+    seen = stage.cover(stage.draw(plain, position=(0.0, 1.0, 20.0)))
+    assert seen.std() > 0.05

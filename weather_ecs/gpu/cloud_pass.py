@@ -14,6 +14,7 @@ from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.cloud_blocks import CLOUD_VIEW
 from weather_ecs.gpu.cloud_images import hulls, image_array
 from weather_ecs.gpu.cloud_impostors import Impostors, Plan
+from weather_ecs.gpu.cloud_inside import CloudInside
 from weather_ecs.gpu.cloud_rays import CloudRays
 from weather_ecs.gpu.cloud_scene import CloudScene, haze_of, rows_of, scene_of, surround_of
 from weather_ecs.gpu.cloud_shadow_pass import CloudShadowPass
@@ -85,6 +86,7 @@ class CloudPass:
             if "cloud_hulls" in program:
                 program["cloud_hulls"].write(hulls().tobytes())
         self._rays = CloudRays(ctx, self._shaders, UNITS)
+        self._inside = CloudInside(ctx, self._shaders)
         return self._store
 
     @property
@@ -129,6 +131,7 @@ class CloudPass:
         self._begins = self._stream.fill(scene, store, bills)
         self._rows.write(rows_of(scene, bills, fresh, haze[bills]))
         self._plan_now, self._haze = plan, haze
+        self._is_inside = self._inside.update(view, scene, store, light)
         self._fill_block(view, light)
         self._use_textures(impostors)
         refreshed = self._take(scene, impostors, plan)
@@ -237,6 +240,8 @@ class CloudPass:
                 done += len(run)
         if view.frame.cloud_look.rays:
             self._rays.draw(scene, self._store, plan.real, matrix, self._rows)
+        if self._is_inside:
+            self._inside.draw(view.projection)
         self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
 
     def _fill_block(self, view: ViewData, light: Surround) -> None:
@@ -281,6 +286,7 @@ class CloudPass:
         self._observers.clear()
         if self._store is None:
             return
+        self._inside.release()
         self._rays.release()
         for array in self._arrays.values():
             array.release()

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 
 FADE = 0.3  # of the growth, over which one billboard comes or goes
-NEAR = (0.30, 0.95)  # widths from the camera, between which a billboard fades
+NEAR = (0.20, 0.75)  # widths from the camera, between which a billboard fades
 
 
 def smoothstep(low: float, high: float, value: ArrayLike) -> Array:

@@ -158,3 +158,19 @@ def haze_color(center: Array, horizon: ArrayLike, zenith: ArrayLike, light: Surr
     mixed = np.asarray(horizon) * (1.0 - 0.5 * sine) + np.asarray(zenith) * 0.5 * sine
     ahead = np.maximum(center @ light.direction / away, 0.0)[:, None]
     return mixed + light.sun * (0.10 * ahead**4 + 0.18 * ahead**32)
+
+
+def depth_inside(eye: Array, centers: NDArray, sizes: NDArray) -> tuple[float, int]:
+    """0 to 1, how deep a place (3,) is in the boxes (s, 3), rising smoothly from their ellipsoids'
+    surfaces; and the box in which it is deepest.
+    """
+    reach = np.linalg.norm((eye - centers) / (0.5 * np.maximum(sizes, 1e-6)), axis=1)
+    box = int(np.argmin(reach))
+    return float(smoothstep(0.0, 0.6, 1.0 - reach[box])), box
+
+
+def inside_light(light: Surround, a: float, ambience: float, darkness: float) -> Array:
+    """Linear RGB (3,) of the white within a cloud: light from all round, less where it is deep."""
+    color: Array = ambience * (0.55 * light.above + 0.45 * light.below)
+    color = color + light.sun * (0.74 * np.exp(-1.1 * a))
+    return color * (1.0 - 0.38 * darkness)

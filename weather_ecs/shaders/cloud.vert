@@ -74,7 +74,7 @@ void main()
     vs_fade.w = light.facing;
 
     // Nothing is left of a billboard that the camera comes to.
-    float near = smoothstep(0.30, 0.95, away / max(size.x, 1e-3));
+    float near = smoothstep(0.20, 0.75, away / max(size.x, 1e-3));
     vs_fade.x = b.opacity * there * near * mix(cloud.opacity, 1.0, 1.0 - cloud_hazed);
     // Of the ellipsoid and not of its image, which hangs low where it lies level over the viewer.
     float rise = 0.5 * flat_offset.y * size.y * level * size.y / max(height, 1e-3);
