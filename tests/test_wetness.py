@@ -342,14 +342,17 @@ LEVEL = {
     "places": [[0, 0]],
     "codes": "00" * 128,
     "melt": 0.0,
-    "rows": [AREA],
-    "since": 0,
+    "rows": [],
+    "since": GOOD["ticks"] - 3,
+    "way": [[2, [AREA]], [1, [AREA], [[0, 1, 4.0]]]],
 }
+RAINED = {**LEVEL, "since": GOOD["ticks"], "way": [], "rows": [AREA]}
 
 
 def test_the_level_that_the_bad_ones_are_made_of_is_good():
     WetGround.from_state({**GOOD, "levels": [LEVEL]})
     WetGround.from_state({**GOOD, "levels": [{**LEVEL, "places": [], "codes": ""}]})
+    WetGround.from_state({**GOOD, "levels": [RAINED]})
 
 
 BAD = [
@@ -363,17 +366,33 @@ BAD = [
     ("levels", [LEVEL] * 2),
     ("levels", [{k: v for k, v in LEVEL.items() if k != "codes"}]),
     *[
-        ("levels", [{**LEVEL, name: value}])
+        ("levels", [{**RAINED, name: value}])
         for name, value in (
-            ("since", 10**9),
-            ("melt", 2.0),
-            ("melt", "fast"),
             ("rows", None),
             ("rows", [AREA[:6]]),
             ("rows", [[0, [0, 0], [1, 1], 0, 0.0, 1, 400]]),
             ("rows", [[0, [0, 0], [1, 2], 0, 5.0, 1, 400]]),
             ("rows", [[0.5, [0, 0], [1, 1], 0, 5.0, 1, 400]]),
             ("rows", [AREA, AREA]),
+        )
+    ],
+    *[
+        ("levels", [{**LEVEL, name: value}])
+        for name, value in (
+            ("since", 10**9),
+            ("rows", [AREA]),
+            ("way", None),
+            ("way", [[3]]),
+            ("way", [[2, [AREA]]]),
+            ("way", [[4, [AREA]]]),
+            ("way", [[3, [AREA]], [0, [AREA]]]),
+            ("way", [[3.0, [AREA]]]),
+            ("way", [[3, [AREA], []]]),
+            ("way", [[3, [AREA], [[0, 1]]]]),
+            ("way", [[3, [AREA], [[0, 1, 0.0]]]]),
+            ("way", [[1, [AREA]]] * 7),
+            ("melt", 2.0),
+            ("melt", "fast"),
             ("level", 99),
             ("level", 0.0),
             ("codes", "00" * 127),
@@ -386,7 +405,7 @@ BAD = [
             ("places", 7),
         )
     ],
-    ("levels", [{**LEVEL, "rows": [], "places": [], "codes": ""}]),
+    ("levels", [{**RAINED, "rows": [], "places": [], "codes": ""}]),
     ("levels", [{**LEVEL, "places": [[1, 0], [0, 0]], "codes": "00" * 256}]),
 ]
 

@@ -41,6 +41,12 @@ class GroundLaw(Protocol):
     def rest(self, layer: Array, seconds: float) -> tuple[Array, NDArray[np.bool_]]:
         """The layer after some seconds without inflow; tiles (first axis) that need `settle`."""
 
+    def kept(self, ages: Array) -> Array:
+        """Share that is left of what has fallen so many seconds ago, while there is little."""
+
+    def kept_mean(self, seconds: float) -> float:
+        """Mean of the same over all ages from 0."""
+
     def merge(self, one: Array, other: Array) -> Array:
         """Two fields that speak of different areas over the same place."""
 
@@ -69,6 +75,12 @@ class WaterLaw:
         dried = layer * math.exp(-seconds / wetness.DRYING)
         return dried, np.any(layer > wetness.FILM, axis=(1, 2))
 
+    def kept(self, ages: Array) -> Array:
+        return np.exp(-ages / wetness.DRYING)
+
+    def kept_mean(self, seconds: float) -> float:
+        return -math.expm1(-seconds / wetness.DRYING) * wetness.DRYING / seconds
+
     def merge(self, one: Array, other: Array) -> Array:
         return wetness.merge(one, other)
 
@@ -96,6 +108,12 @@ class SnowLaw:
     def rest(self, layer: Array, seconds: float) -> tuple[Array, NDArray[np.bool_]]:
         left = np.maximum(layer - self.melt * seconds, 0.0)
         return left, np.zeros(len(layer), bool)
+
+    def kept(self, ages: Array) -> Array:
+        return np.ones_like(ages)
+
+    def kept_mean(self, seconds: float) -> float:
+        return 1.0
 
     def merge(self, one: Array, other: Array) -> Array:
         return one + other

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -15,13 +14,13 @@ from weather_ecs.frame import AREA_DTYPE, WetTileData, empty
 from weather_ecs.physics.ground_law import WATER, GroundLaw
 from weather_ecs.physics.rain_field import RainField, plain_rows
 from weather_ecs.physics.wetness import MM_PER_S
+from weather_ecs.systems.wet_path import Stretch, begin
 from weather_ecs.systems.wet_tiles import WetTiles
 
 TICK = 1.0  # s of weather between two looks at what the areas do
 LONGEST = 60  # ticks that one leap spans at most
-GRADUAL = 4  # ticks over which a change counts as a steady one
-SHIFT = 2.0  # cells that an area moves before its rain is entered
-CHANGE = 0.02  # of a rain rate, before its rain is entered
+LEAP = 10  # the same where areas move or change
+MOST_STRETCHES = 6  # in one leap
 FASTEST_MELT = 1.0  # mm/s
 NO_AREAS = empty(AREA_DTYPE)
 
@@ -35,85 +34,112 @@ class WetLevel:
     def __init__(self, level: int, since: int, law: GroundLaw = WATER) -> None:
         self.tiles = WetTiles(level, law)
         self.since = since  # the tick the tiles are of
-        self.rows = NO_AREAS  # the raining areas since then
-        self._field = RainField(NO_AREAS)
+        self.rows = NO_AREAS  # the raining areas as the last tick left them
+        self.stretches: list[Stretch] = []  # what they did since then
+        self._field: RainField | None = None
+        self._now: WetTiles | None = None
         self._data: WetTileData | None = None
 
     def tick(self, rows: NDArray, ticks: int, law: GroundLaw = WATER) -> None:
         """A tick has passed, at whose end the areas were these rows of AREA_DTYPE."""
-        pending = ticks - self.since
         if not self.tiles.law.alike(law):
-            if pending > 1:
-                self._enter([self.rows], pending - 1)
-                pending, self.since = 1, ticks - 1
+            self._enter()
             self.tiles.law, self._data = law, None
-        same = rows is self.rows or self._alike(rows)
-        if same and pending < LONGEST:
-            return
-        gradual = same or self._alike(rows, 4.0)
-        if same or (gradual and pending <= GRADUAL):
-            self._enter(self._until(rows), pending)
-        else:
-            if pending > 1:
-                self._enter([self.rows], pending - 1)
-            self._enter(self._until(rows) if gradual else [rows], 1)
-        self.since, self.rows = ticks, rows
-        self._field = RainField(rows)
-        self._data = None
+        stretches, cell = self.stretches, self.tiles.cell
+        if not (stretches and stretches[-1].goes_on(rows, cell)):
+            if stretches and self._pending > LEAP:
+                self._enter()
+            stretches.append(begin(rows, self.rows, cell))
+        if rows is not self.rows:
+            self.rows, self._field = rows, None
+        if not self._stood:
+            self._now = self._data = None
+        pending = self._pending
+        if pending >= (LONGEST if self._stood else LEAP) or len(stretches) > MOST_STRETCHES:
+            self._enter()
+
+    @property
+    def _pending(self) -> int:
+        """Ticks that have not been entered."""
+        return sum([stretch.ticks for stretch in self.stretches])
+
+    @property
+    def _stood(self) -> bool:
+        """Whether the areas have stood since the last entry."""
+        return not self.stretches or (len(self.stretches) == 1 and self.stretches[0].still)
 
     @property
     def is_dry(self) -> bool:
         """Whether there is neither water nor rain."""
-        return not len(self.tiles) and not len(self.rows)
+        rained = any(len(stretch.last) for stretch in self.stretches)
+        return not rained and not len(self.tiles) and not len(self.rows)
 
-    def _enter(self, moments: list[NDArray], ticks: int) -> None:
-        """Let the mean rain of some moments fall for some ticks."""
-        for rows in moments:
-            self.tiles.rain(rows, 1.0 / len(moments))
-        self.tiles.settle(ticks * TICK)
+    def _enter(self) -> None:
+        """Bring the tiles up to date."""
+        if self.stretches:
+            self._let_fall(self.tiles)
+            self.tiles.next_round()
+            self.since += self._pending
+            self.stretches.clear()
+            self._now = self._data = None
 
-    def _until(self, rows: NDArray) -> list[NDArray]:
-        """The moments that stand for the time until `rows`: one where nothing has moved."""
-        still = rows is self.rows or np.array_equal(rows, self.rows)
-        return [rows] if still else [self.rows, rows]
-
-    def _alike(self, rows: NDArray, tolerance: float = 1.0) -> bool:
-        """Whether the ground can hardly tell these areas from those it knows."""
-        if len(rows) != len(self.rows):
-            return False
-        for one, other in zip(plain_rows(rows), plain_rows(self.rows), strict=True):
-            key, (x, z), radii, heading, rate, *shape = one
-            other_key, (u, w), other_radii, other_heading, other_rate, *other_shape = other
-            if (key, radii, heading, shape) != (other_key, other_radii, other_heading, other_shape):
-                return False
-            if math.hypot(x - u, z - w) > tolerance * SHIFT * self.tiles.cell:
-                return False
-            if abs(rate - other_rate) > tolerance * CHANGE * max(rate, other_rate):
-                return False
-        return True
+    def _let_fall(self, tiles: WetTiles) -> None:
+        """Let what has not been entered fall on tiles."""
+        left = seconds = self._pending * TICK
+        mean = tiles.law.kept_mean(seconds) * seconds
+        for stretch in self.stretches:
+            then = left - stretch.ticks * TICK
+            if stretch.still:
+                # What of it is left at the end, as the law has it.
+                share = tiles.law.kept_mean(left) * left
+                share -= tiles.law.kept_mean(then) * then if then > 0.0 else 0.0
+                tiles.rain(stretch.last, share / mean)
+            else:
+                tiles.rain_along(stretch.first, stretch.last, left, then, 1.0 / mean)
+            left = then
+        tiles.settle(seconds)
 
     def at(self, x: float, y: float, z: float, ticks: int) -> float:
         """mm at a place at a tick."""
+        if not self._stood:
+            return self._current().at(x, z)
+        if self._field is None:
+            self._field = RainField(self.rows)
         water = self.tiles.at(x, z)
         if ticks > self.since and (water > 0.0 or self._field):
             rate = self._field.rate(x, y, z) * MM_PER_S
             water = self.tiles.law.settle_one(water, rate, (ticks - self.since) * TICK)
         return water
 
+    def _current(self) -> WetTiles:
+        """The tiles as they are now; made for whoever asks, and no part of the state."""
+        if self._now is None:
+            self._now = self.tiles.copy()
+            self._let_fall(self._now)
+        return self._now
+
     def data(self) -> WetTileData:
         """The same as plain arrays; the same object as long as nothing was entered."""
         if self._data is None:
-            melt = self.tiles.law.melt
-            self._data = WetTileData(*self.tiles.arrays(), self.since, self.rows, melt)
+            tiles, since = self.tiles, self.since
+            if not self._stood:
+                tiles, since = self._current(), since + self._pending
+            self._data = WetTileData(*tiles.arrays(), since, self.rows, tiles.law.melt)
         return self._data
 
     # For snapshots
 
     def state(self) -> dict[str, Any]:
         """All there is to it, as plain values."""
-        rows = [list(row) for row in plain_rows(self.rows)]
+        way = [
+            [stretch.ticks, _plain(stretch.last), *([] if stretch.still else [_moved(stretch)])]
+            for stretch in self.stretches
+        ]
         law = self.tiles.law
-        return {"melt": law.melt, "rows": rows, "since": self.since, **self.tiles.state()}
+        rows = [] if self.stretches else _plain(self.rows)
+        return {
+            "melt": law.melt, "rows": rows, "since": self.since, "way": way, **self.tiles.state(),
+        }  # fmt: skip
 
     @classmethod
     def from_state(cls, state: Any, ticks: int, law: Callable[[float], GroundLaw]) -> WetLevel:
@@ -121,7 +147,7 @@ class WetLevel:
 
         Raises InvalidValueError for anything else.
         """
-        fields = ["codes", "level", "melt", "places", "rows", "since"]
+        fields = ["codes", "level", "melt", "places", "rows", "since", "way"]
         if not isinstance(state, dict) or sorted(state) != fields:
             raise InvalidValueError("wetness.levels", state, f"the fields {fields}")
         if type(state["melt"]) is not float or not 0.0 <= state["melt"] <= FASTEST_MELT:
@@ -129,11 +155,53 @@ class WetLevel:
         kept = {name: state[name] for name in ("codes", "level", "places")}
         tiles = WetTiles.from_state(kept, law(state["melt"]))
         found = cls(tiles.level, whole("wetness.since", state["since"], ticks))
-        found.tiles, found.rows = tiles, _rows(state["rows"])
-        found._field = RainField(found.rows)
+        found.tiles = tiles
+        found.rows = _rows(state["rows"])
+        found.stretches = _way(state["way"], ticks - found.since)
+        if found.stretches:
+            if len(found.rows):
+                raise InvalidValueError("wetness.rows", state["rows"], "none beside a way")
+            found.rows = found.stretches[-1].last
         if found.is_dry:
             raise InvalidValueError("wetness.levels", state, "levels with water or rain")
         return found
+
+
+def _plain(rows: NDArray) -> list[list[Any]]:
+    return [list(row) for row in plain_rows(rows)]
+
+
+def _moved(stretch: Stretch) -> list[list[float]]:
+    """Where the areas of a stretch came from: (x, z, rate) of each."""
+    first = stretch.first
+    return [
+        [*c, r] for c, r in zip(first["center"].tolist(), first["rain_rate"].tolist(), strict=True)
+    ]
+
+
+def _way(values: Any, pending: int) -> list[Stretch]:
+    if not isinstance(values, list) or len(values) > MOST_STRETCHES:
+        raise InvalidValueError("wetness.way", values, f"up to {MOST_STRETCHES} stretches")
+    found = []
+    for value in values:
+        if not isinstance(value, list) or len(value) not in (2, 3):
+            raise InvalidValueError("wetness.way", value, "ticks, areas, where they came from")
+        count = whole("wetness.way", value[0], LONGEST)
+        last = first = _rows(value[1])
+        if len(value) == 3:
+            starts = value[2]
+            if not isinstance(starts, list) or len(starts) != len(last):
+                raise InvalidValueError("wetness.way", starts, "one start for each area")
+            rows = []
+            for row, start in zip(value[1], starts, strict=True):
+                if not isinstance(start, list) or len(start) != 3:
+                    raise InvalidValueError("wetness.way", start, "three numbers")
+                rows.append([row[0], start[:2], *row[2:4], start[2], *row[5:]])
+            first = _rows(rows)
+        found.append(Stretch(first, last, count))
+    if any(not each.ticks for each in found) or sum(each.ticks for each in found) != pending:
+        raise InvalidValueError("wetness.way", values, f"stretches of {pending} ticks in all")
+    return found
 
 
 def whole(field: str, value: Any, most: int) -> int:

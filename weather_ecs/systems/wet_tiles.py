@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.ground_law import WATER, GroundLaw
-from weather_ecs.physics.rain_field import area_shares, plain_rows
+from weather_ecs.physics.rain_field import plain_rows
 from weather_ecs.physics.wetness import MM_PER_S
+from weather_ecs.systems.wet_shares import SIDE, Fallen, Patterns, Shape, moments
 
-SIDE = 8  # cells on a side of a tile
 FINEST, COARSEST = -2, 40  # levels; a cell is 2**level m wide
 MOST_TILES = 1024
 _TRACE = 1e-2  # mm, less is dry
-_CELLS = 400  # of an area, about
+_CELLS = 256  # of an area, about
 _FAR = 2**31
 
 
@@ -45,23 +45,44 @@ class WetTiles:
         self._rows: dict[tuple[int, int], int] = {}
         self._codes = np.zeros((0, SIDE, SIDE), np.uint32)  # (tile, along z, along x)
         self._inflow = np.zeros((0, SIDE, SIDE))  # mm/s
-        # Shares of the rain by the area's geometry, of the last round and of this one.
-        self._known: dict[tuple, _Shares] = {}
-        self._used: dict[tuple, _Shares] = {}
+        self._patterns = Patterns(self.cell)
 
     def __len__(self) -> int:
         return len(self._places)
 
-    def rain(self, areas: NDArray, weight: float) -> None:
-        """Add the rain of areas (rows of AREA_DTYPE) to what the next `settle` lets fall."""
+    def rain(self, areas: NDArray, weight: float = 1.0) -> None:
+        """Add the rain of standing areas (AREA_DTYPE) to what the next `settle` lets fall."""
         for _, center, radii, heading, rate, edge, _ in plain_rows(areas):
-            geometry = (center, radii, heading, edge)
-            shares = self._used.get(geometry) or self._known.get(geometry)
-            if shares is None:
-                shares = _Shares(self.cell, *geometry)
-            self._used[geometry] = shares
-            rows = [self._row(place) for place in shares.places]
-            self._inflow[rows] += shares.values * (rate * MM_PER_S * weight)
+            fallen = self._patterns.standing(center, Shape(radii, heading, edge))
+            self._add(fallen, rate * MM_PER_S * weight)
+
+    def rain_along(
+        self, first: NDArray, last: NDArray, since: float, until: float, weight: float
+    ) -> None:
+        """The same of areas on their way; the times are seconds before the next settle ends.
+
+        What has fallen long ago counts less, as the law has it.
+        """
+        pairs = zip(plain_rows(first), plain_rows(last), strict=True)
+        for (_, start, radii, heading, rate, edge, _), (_, end, _, _, then, *_) in pairs:
+            way = math.dist(start, end)
+            count = moments(way, self.cell, edge)
+            at = (np.arange(count) + 0.5) / count
+            amounts = (rate + (then - rate) * at) * self.law.kept(since + (until - since) * at)
+            points = np.array(start) + np.subtract(end, start) * at[:, None]
+            weights = amounts * (MM_PER_S * weight * (since - until) / count)
+            self._add(self._patterns.swept(Shape(radii, heading, edge), points, weights), 1.0)
+
+    def _add(self, fallen: Fallen, factor: float) -> None:
+        rows = [self._row(place) for place in fallen.places]
+        self._inflow[rows] += fallen.amounts * factor
+
+    def copy(self) -> WetTiles:
+        """Another one of the same water; patterns are shared."""
+        tiles = WetTiles(self.level, self.law)
+        tiles._patterns = self._patterns
+        tiles._take(list(self._places), self._codes[: len(self._places)].copy())
+        return tiles
 
     def _row(self, place: tuple[int, int]) -> int:
         row = self._rows.get(place)
@@ -91,7 +112,10 @@ class WetTiles:
             order = np.argsort(np.where(kept, wettest.astype(int), -1), kind="stable")
             kept[order[:-MOST_TILES]] = False
         self._take([p for p, keep in zip(self._places, kept, strict=True) if keep], codes[kept])
-        self._known, self._used = self._used, {}
+
+    def next_round(self) -> None:
+        """Forget the patterns of areas that are no more."""
+        self._patterns.next_round()
 
     def _take(self, places: list[tuple[int, int]], codes: NDArray[np.uint32]) -> None:
         self._places, self._codes = places, codes
@@ -176,35 +200,6 @@ class WetTiles:
             raise InvalidValueError("wetness.codes", int(values.max()), f"0 to {tiles._steps}")
         tiles._take(named, values.astype(np.uint32).reshape(-1, SIDE, SIDE))
         return tiles
-
-
-class _Shares:
-    """How much of an area's rain falls on which cells."""
-
-    def __init__(
-        self,
-        cell: float,
-        center: tuple[float, float],
-        radii: tuple[float, float],
-        heading: float,
-        edge: float,
-    ) -> None:
-        (x, z), (a, b) = center, radii
-        c, s = math.cos(heading), math.sin(heading)
-        u, w, tile = math.hypot(a * c, b * s), math.hypot(a * s, b * c), cell * SIDE
-        first = math.floor((x - u) / tile), math.floor((z - w) / tile)
-        last = math.floor((x + u) / tile), math.floor((z + w) / tile)
-        wide, deep = last[0] - first[0] + 1, last[1] - first[1] + 1
-        across = (np.arange(wide * SIDE) + 0.5) * cell + first[0] * tile
-        along = (np.arange(deep * SIDE) + 0.5) * cell + first[1] * tile
-        shares = area_shares(across, along[:, None], center, radii, heading, edge)
-        values = shares.reshape(deep, SIDE, wide, SIDE).swapaxes(1, 2)
-        wet = values.any(axis=(2, 3))
-        rows, columns = np.nonzero(wet)
-        self.places: list[tuple[int, int]] = list(
-            zip((columns + first[0]).tolist(), (rows + first[1]).tolist(), strict=True)
-        )
-        self.values = values[wet]
 
 
 def _place(value: Any) -> tuple[int, int]:
