@@ -20,6 +20,7 @@ from tests.cloud_fields import FIELDS as CLOUD_FIELDS
 from weather_ecs.components import (
     SNAPSHOT_COMPONENTS,
     Air,
+    CloudShading,
     CollisionHeightmap,
     Fog,
     Observer,
@@ -34,7 +35,7 @@ from weather_ecs.components import (
     Wind,
 )
 from weather_ecs.errors import InvalidValueError
-from weather_ecs.frame import DropLook, SkyLight, SnowLook, SplashLook
+from weather_ecs.frame import CloudLook, DropLook, SkyLight, SnowLook, SplashLook
 
 ROOT = Path(__file__).resolve().parent.parent
 NAN, INF = math.nan, math.inf
@@ -94,6 +95,13 @@ CASES = [
     (RippleSurface, "clarity", [0.001, 1000]),
     (RippleSurface, "draw", [True, np.bool_(False)]),
     (RippleSurface, "catches_rain", [False, True]),
+    (CloudShading, "plain", [True, np.bool_(False)]),
+    (CloudShading, "rays", [True, np.bool_(False)]),
+    (CloudShading, "silver", [0, 10]),
+    (CloudShading, "base", [0, 1]),
+    (CloudShading, "ambient", [0, 10]),
+    (CloudShading, "softness", [0, 10]),
+    (CloudShading, "shadows", [False, True]),
     (SnowFlakes, "model", ["physical", "liu_tong"]),
     (SnowFlakes, "size", [0.05, 50]),
     (SnowFlakes, "settling", [0, 100]),
@@ -190,6 +198,13 @@ BAD = [
     (RippleSurface, "clarity", [0, 1001]),
     (RippleSurface, "draw", [0, 1, "yes"]),
     (RippleSurface, "catches_rain", [0, "no"]),
+    (CloudShading, "plain", [0, "yes"]),
+    (CloudShading, "rays", [0, "yes"]),
+    (CloudShading, "silver", [-0.1, 11]),
+    (CloudShading, "base", [-0.1, 1.1]),
+    (CloudShading, "ambient", [-0.1, 11]),
+    (CloudShading, "softness", [-0.1, 11]),
+    (CloudShading, "shadows", [1, "no"]),
     (SnowFlakes, "model", ["swiss", "", 1, None]),
     (SnowFlakes, "size", [0, 51]),
     (SnowFlakes, "size_maximum", [0.5, 51]),
@@ -279,6 +294,7 @@ def test_every_field_of_every_component_is_among_the_cases():
 def test_defaults_are_those_of_the_frame():
     for look, component in (
         (DropLook(), RainContainer()), (SnowLook(), SnowFlakes()), (SplashLook(), SplashEmitter()),
+        (CloudLook(), CloudShading()),
     ):  # fmt: skip
         names = [field.name for field in dataclasses.fields(look)]
         assert [field.name for field in dataclasses.fields(component)] == names

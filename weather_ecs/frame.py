@@ -258,7 +258,7 @@ BILLBOARD_DTYPE = np.dtype(
 
 @dataclass(frozen=True, slots=True)
 class CloudLook:
-    """Looks of the clouds."""
+    """Looks of the clouds; see `components.CloudShading`."""
 
     plain: bool = False  # the dissertation's own light and nothing else
     rays: bool = False  # show the absorption rays

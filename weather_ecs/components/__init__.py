@@ -9,6 +9,7 @@ from weather_ecs.components.cloud import Cloud
 from weather_ecs.components.cloud_model import CloudModel
 from weather_ecs.components.cloud_root import CloudRoot
 from weather_ecs.components.cloud_seed import CloudSeed
+from weather_ecs.components.cloud_shading import CloudShading
 from weather_ecs.components.collision_heightmap import CollisionHeightmap
 from weather_ecs.components.fog import Fog
 from weather_ecs.components.observer import Observer
@@ -34,6 +35,7 @@ SNAPSHOT_COMPONENTS: dict[str, type[Component]] = {
         Climate,
         Cloud,
         CloudModel,
+        CloudShading,
         CollisionHeightmap,
         Fog,
         PointLight,
@@ -55,6 +57,7 @@ __all__ = [
     "CloudModel",
     "CloudRoot",
     "CloudSeed",
+    "CloudShading",
     "CollisionHeightmap",
     "Fog",
     "Observer",

@@ -24,11 +24,13 @@ from weather_ecs.components import (
     Sun,
     Wind,
 )
+from weather_ecs.components.cloud_shading import CloudShading
 from weather_ecs.components.collision_heightmap import ALL_LAYERS
 from weather_ecs.frame import (
     AREA_DTYPE,
     LIGHT_DTYPE,
     AirData,
+    CloudLook,
     DropLook,
     FogData,
     FrameData,
@@ -62,8 +64,10 @@ _KINDS = (
     CollisionHeightmap,
     Air,
     Fog,
+    CloudShading,
 )
 _LOOK = tuple(item.name for item in fields(DropLook))
+_CLOUDS = tuple(item.name for item in fields(CloudLook))
 _FLAKES = tuple(item.name for item in fields(SnowLook))
 _SPLASH = tuple(item.name for item in fields(SplashLook))
 _NO_AREAS = empty(AREA_DTYPE)
@@ -169,6 +173,7 @@ class ExtractSystem:
             occluders=occluders,
             splash=self._splash,
             flakes=self._flakes,
+            cloud_look=self._cloud_look,
             ripples=self._ripples.surfaces,
             wetness=state.wet_ground.data(),
             snow_ground=state.snow_ground.data(),
@@ -208,6 +213,7 @@ class ExtractSystem:
         self._air, self._fog = air_data(state), fog_data(state, self._parts[1])
         self._splash = _splash(state)
         self._flakes = _flakes(state)
+        self._cloud_look = _cloud_look(state)
         self._ripples.collect(state)
         self._heightmap, self._layers = _heightmap(state)
         self._entities = [
@@ -242,6 +248,12 @@ def _flakes(state: WeatherState) -> SnowLook:
     for _, flakes in alive(SnowFlakes, state.uids):
         return SnowLook(*[getattr(flakes, name) for name in _FLAKES])
     return SnowLook()
+
+
+def _cloud_look(state: WeatherState) -> CloudLook:
+    for _, shading in alive(CloudShading, state.uids):
+        return CloudLook(*[getattr(shading, name) for name in _CLOUDS])
+    return CloudLook()
 
 
 def _splash(state: WeatherState) -> SplashLook | None:
