@@ -44,8 +44,8 @@ def run(quick: bool) -> Result:
             cases.append(Case(sky.name, lambda sky=sky: play(stage, sky)))  # type: ignore[misc]
             for _ in range(5 if quick else SETTLE):
                 play(stage, sky)
-        timings = measure(cases, finish=ctx.finish, rounds=3 if quick else 15, sample_seconds=0.2)
-        cfa = {sky.name: cfa_ms(stage, sky, 6 if quick else 60) for sky in skies}
+        timings = measure(cases, finish=ctx.finish, rounds=2 if quick else 15, sample_seconds=0.02 if quick else 0.2)
+        cfa = {sky.name: cfa_ms(stage, sky, 2 if quick else 40) for sky in skies}
         for sky, case in zip(skies, cases, strict=True):
             facts = {
                 "clouds": sky.weather.stats.clouds,

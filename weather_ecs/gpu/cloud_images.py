@@ -50,7 +50,10 @@ def hulls() -> NDArray[np.float32]:
     found = np.empty((len(CLOUD_IMAGES), 8, 2), np.float32)
     for layer, cover in enumerate(images()[..., 3]):
         seen = cover > 0
-        places = np.stack([_X[seen], _Y[seen]], axis=1)
+        rows = np.flatnonzero(seen.any(axis=1))
+        # The ends of each row are enough.
+        ends = seen[rows].argmax(axis=1), SIZE - 1 - seen[rows, ::-1].argmax(axis=1)
+        places = np.concatenate([np.stack([_AXIS[x], _AXIS[rows]], axis=1) for x in ends])
         reach = (places @ ways.T).max(axis=0) + 2.0 / SIZE
         after = np.roll(reach, -1)
         # Where two neighbouring sides meet, at the sine of the 45 degrees between them.

@@ -1,4 +1,4 @@
-// The clouds' shadows for a game's own shader; see docs/clouds.md. `CloudShadow.use(program)` binds
+// The clouds' shadows for a game's own shader; see docs/cloud-drawing.md. `CloudShadow.use(program)` binds
 // what is declared here. After a game's own #version line; GLSL 3.30 or newer.
 layout(std140) uniform WeatherCloudShadow
 {
