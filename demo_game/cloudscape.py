@@ -16,6 +16,7 @@ SETTLING = 22.0  # s in which the clouds come to be those of another state
 SETTLED = 60.0  # s after a change by which they are
 CHANGED = 0.004  # of the state, that calls for other clouds
 FAIR_BASE = 600.0, 2000.0  # m, between which the bases of cumulus are
+STEADY = (5.2, 2.1)  # (x, z), m/s, of clouds that the wind of a preset does not carry
 FEW = 0.6  # of the cumulus of a fair sky
 RAINY = ("nimbostratus", "cumulonimbus", "stratus")
 
@@ -97,9 +98,23 @@ def all_layers() -> list[SkyLayer]:
     return list(presets.sky("clear").layers)
 
 
+def steady_layers() -> list[SkyLayer]:
+    """The package's skies, which drift the same whatever the wind."""
+    layers = all_layers()
+    for layer in layers:
+        (x, z), share = layer.velocity, layer.drift
+        layer.velocity = (x + share * STEADY[0], z + share * STEADY[1])
+        layer.drift = 0.0
+    return layers
+
+
 def light_layers() -> list[SkyLayer]:
-    """Some cumulus, few enough that a machine without a GPU draws them beside all the rest."""
+    """Some cumulus, few enough that a machine without a GPU draws them beside all the rest.
+
+    They drift the same whatever the wind.
+    """
     low = next(layer for layer in all_layers() if FAIR_BASE[0] < layer.base < FAIR_BASE[1])
     fair = next(sky for sky in low.skies if sky.state == presets.SKIES["fair"])
+    low.drift, low.velocity = 0.0, STEADY
     low.skies = (replace(fair, count=round(FEW * fair.count)),)
     return [low]

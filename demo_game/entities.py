@@ -9,7 +9,7 @@ import esper
 
 from demo_game.mood import Mood
 from demo_game.place import Place
-from demo_game.skies import Light, shade
+from demo_game.skies import Light, under_cloud
 from weather_ecs import Weather
 from weather_ecs.components import (
     Air,
@@ -19,6 +19,7 @@ from weather_ecs.components import (
     RainArea,
     RainContainer,
     RippleSurface,
+    SnowFlakes,
     SplashEmitter,
     Sun,
     Wind,
@@ -36,6 +37,8 @@ SHOWER_SHARE = 0.6  # of the rain rate of the large one
 SHOWER_DISTANCE = 420.0  # m that its course keeps from the place, to the left of the wind
 SHOWER_COURSE = 600.0  # m before and behind there, then it begins anew
 SHOWER_BEFORE = -250.0  # m along its course, where it is when the game begins
+DROPS_BRIGHT, FLAKES_BRIGHT = 1.6, 1.7  # in open air; darker under the cloud they fall from
+SETTLING = 8.0  # snow covers the ground within a minute or two
 POND_RIM = 1.1  # of its radii, as far as its wobbling shore reaches
 # Open land on a gusty day; the ground of the place is about 0 m.
 BREEZE: dict[str, Any] = {
@@ -64,7 +67,8 @@ class Entities:
         )
         self._wind, self._sun = Wind(**BREEZE), Sun()
         self._air, self._fog = Air(), Fog()
-        looks = RainContainer(), SplashEmitter(), self._air, self._fog
+        self._drops, self._flakes = RainContainer(), SnowFlakes(settling=SETTLING)
+        looks = self._drops, self._flakes, SplashEmitter(), self._air, self._fog
         for component in (self.area, self.shower, *looks, self._wind, self._sun):
             esper.create_entity(component)
         (x, z), (a, b), level = place.pond
@@ -85,10 +89,18 @@ class Entities:
                 self._moving[name] = occluder
         self.update(mood, light, time)
 
-    def update(self, mood: Mood, light: Light, time: float, share: float = 1.0) -> None:
+    def update(
+        self,
+        mood: Mood,
+        light: Light,
+        time: float,
+        share: float = 1.0,
+        dark_for: float | None = None,
+    ) -> None:
         """Carry the game's state of this frame into the components.
 
-        `share` of the mood's rain falls in the large area: less than 1 in a lull.
+        `share` of the mood's rain falls in the large area: less than 1 in a lull. What falls is
+        as dark as under a cloud that rains `dark_for` mm/h; None: the mood's.
         """
         self._share = share
         for area, rate in self.rates(mood):
@@ -99,7 +111,9 @@ class Entities:
             self._wind.direction = (x, z)
         _assign(self._air, temperature=mood.temperature, humidity=mood.humidity)
         _assign(self._fog, visibility=clearest(mood.visibility), color=displayed(light))
-        light = shade(light, share * mood.rain_rate)
+        left = under_cloud(mood.rain_rate if dark_for is None else dark_for)
+        _assign(self._drops, brightness=round(left * DROPS_BRIGHT, 3))
+        _assign(self._flakes, brightness=round(left * FLAKES_BRIGHT, 3))
         _assign(
             self._sun,
             color=light.sun_color,

@@ -11,7 +11,7 @@ import esper
 import moderngl
 
 from demo_game.camera import Pose, projection_matrix, view_matrix
-from demo_game.cloudscape import Cloudscape, all_layers, light_layers
+from demo_game.cloudscape import STEADY, Cloudscape, all_layers, light_layers, steady_layers
 from demo_game.collision import Colliders
 from demo_game.compass import compass
 from demo_game.entities import Entities, direction, fog_left, fog_overhead
@@ -106,9 +106,11 @@ class Game:
             self.mood.follow_climate(self._scape.state)
         self.sky.update(dt)
         share = self._showers.share(self.time) if self.tour is None else 1.0
-        self._entities.update(self._mood(), self._light(), self._scene_time, share)
-        rates = [rate for _, rate in self._entities.rates(self._scenery())]
-        self._scape.update(dt, self._scenery().state, rates)
+        scenery = self._scenery()
+        light, dark_for = self._light(), scenery.rain_rate
+        self._entities.update(self._mood(), light, self._scene_time, share, dark_for)
+        rates = [rate for _, rate in self._entities.rates(scenery)]
+        self._scape.update(dt, scenery.state, rates)
         if self.tour is None:
             self.player.update(dt, intent)
         self.pose = self._pose()
@@ -226,9 +228,19 @@ class Game:
         )
 
     def _layers(self) -> list[SkyLayer]:
-        """The sky: on the tours that are measured one that costs little, if that is asked for."""
-        compared = self.tour is not None and self.tour.name in COMPARED_TOURS
-        return light_layers() if compared and self.settings.quality in LIGHT else all_layers()
+        """The sky: on the tours that are compared it drifts the same whatever the wind, and costs
+        little if that is asked for.
+        """
+        if not self._is_compared:
+            return all_layers()
+        shower = self._entities.shower
+        shower.drift, shower.velocity = 0.0, STEADY
+        return light_layers() if self.settings.quality in LIGHT else steady_layers()
+
+    @property
+    def _is_compared(self) -> bool:
+        """Whether two runs of the tour may differ by what falls alone."""
+        return self.tour is not None and self.tour.name in COMPARED_TOURS
 
     @property
     def _scene_time(self) -> float:
@@ -296,7 +308,7 @@ class Game:
         On the tours that are compared with their clear selves they are painted wet instead, so
         that the difference is the rain alone.
         """
-        return self.tour is None or self.tour.name not in COMPARED_TOURS or self._snows
+        return not self._is_compared or self._snows
 
     @property
     def _snows(self) -> bool:

@@ -19,28 +19,29 @@ def rain_cloud_model(name: str, radii: tuple[float, float]) -> CloudModel:
     """
     a, b = SPREAD * radii[0], SPREAD * radii[1]
     high = THICK * radii[1]
-    size = 0.62 * b
-    seeds = [_seed((0.0, 0.35 * high, 0.0), 0.9 * a, 0.45 * high, 0.9 * b)]
-    for k in range(6):
-        turn = math.tau * (k + 0.5) / 6
-        x, z = 0.60 * a * math.cos(turn), 0.60 * b * math.sin(turn)
-        seeds.append(_seed((x, 0.26 * high, z), 0.55 * a, 0.34 * high, 0.55 * b))
+    size = 0.72 * b
+    # Sheets close it, shreds make its underside and rim, and heaps its top.
+    seeds = [_seed((0.0, 0.30 * high, 0.0), (0.75 * a, 0.2 * high, 0.75 * b), "sheet", 2.0)]
+    for k in range(7):
+        turn = math.tau * (k + 0.5) / 7
+        x, z = 0.62 * a * math.cos(turn), 0.62 * b * math.sin(turn)
+        seeds.append(_seed((x, 0.26 * high, z), (0.5 * a, 0.30 * high, 0.5 * b), "ragged"))
     for k in range(3):
         turn = math.tau * (k + 0.2) / 3
-        x, z = 0.32 * a * math.cos(turn), 0.32 * b * math.sin(turn)
-        seeds.append(_seed((x, 0.72 * high, z), 0.5 * a, 0.4 * high, 0.5 * b, ("puff",)))
+        x, z = 0.34 * a * math.cos(turn), 0.34 * b * math.sin(turn)
+        seeds.append(_seed((x, 0.70 * high, z), (0.5 * a, 0.4 * high, 0.5 * b), "puff", 1.1))
     return CloudModel(
         name=name,
         seeds=tuple(seeds),
         billboards_min=2,
         billboards_max=2,
         size_min=size,
-        size_max=1.45 * size,
+        size_max=1.35 * size,
         images=("ragged",),
         light_penetration=1.1 * high,
         roundness=0.5,
         flatness=0.8,
-        aspect=0.55,
+        aspect=0.5,
         opacity=0.96,
         darkness=0.95,
     )
@@ -48,12 +49,11 @@ def rain_cloud_model(name: str, radii: tuple[float, float]) -> CloudModel:
 
 def _seed(
     center: tuple[float, float, float],
-    width: float,
-    height: float,
-    depth: float,
-    images: tuple[str, ...] = (),
+    size: tuple[float, float, float],
+    image: str,
+    large: float = 1.0,
 ) -> CloudSeed:
-    return CloudSeed(center, width, height, depth, images=images)
+    return CloudSeed(center, *size, images=(image,), size_factor=large)
 
 
 def place_over(cloud: Cloud, area: RainArea, rate: float) -> None:

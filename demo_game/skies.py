@@ -114,17 +114,9 @@ def hide(light: Light, left: float) -> Light:
     )
 
 
-def shade(light: Light, rain_rate: float) -> Light:
-    """The same light below the cloud that rains so many mm/h: what falls there is lit by it."""
-    left = 1.0 - 0.45 * (1.0 - math.exp(-rain_rate / 4.0))
-    return Light(
-        light.sun_direction,
-        _dimmed(light.sun_color, left),
-        _dimmed(light.zenith_color, left),
-        _dimmed(light.horizon_color, left),
-        _dimmed(light.ground_color, left),
-        light.lamps,
-    )
+def under_cloud(rain_rate: float) -> float:
+    """Share of the daylight that is left to what falls under the cloud that rains so many mm/h."""
+    return 1.0 - 0.45 * (1.0 - math.exp(-rain_rate / 4.0))
 
 
 def _dimmed(color: Color, share: float) -> Color:

@@ -124,22 +124,3 @@ def detail() -> NDArray:
     layers = np.stack([wood, stone, grass, broad], -1)
     layers /= np.abs(layers).max((0, 1)) * (0.75, 0.8, 0.75, 1.0)
     return np.clip(127.5 + 127.5 * layers, 0, 255).astype("u1")
-
-
-def clouds(size: int = 256) -> NDArray:
-    """(size, size, 2) u1 tiled fbm for painted skies: soft billows, and wisps drawn along u."""
-    u, v = np.meshgrid(np.arange(size) / size, np.arange(size) / size)
-    billow, wisp = np.zeros((size, size)), np.zeros((size, size))
-    for octave in range(6):
-        cells = 4 << octave
-        noise = Noise(70 + octave)
-        noise.table = np.tile(noise.table[:cells, :cells], (256 // cells, 256 // cells))
-        weight = 0.5**octave
-        billow += weight * noise(u * cells, v * cells)
-        thin = Noise(80 + octave)
-        across, along = max(cells // 4, 1), cells
-        thin.table = np.tile(thin.table[:along, :across], (256 // along, 256 // across))
-        wisp += weight * thin(u * across, v * along)
-    both = np.stack([billow, wisp], -1)
-    both /= np.abs(both).max((0, 1)) * 0.85
-    return np.clip(127.5 + 127.5 * both, 0, 255).astype("u1")

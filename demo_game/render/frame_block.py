@@ -13,7 +13,6 @@ from .breeze import PAST, Breeze
 from .environment import Environment
 
 AREAS = 4
-CLOUD_SPEED = 2.0  # of the wind at the ground
 BINDING = 30  # the game's own; hosts hand out low ones, the weather takes the topmost
 FRAME_DTYPE = np.dtype(
     [
@@ -46,7 +45,6 @@ class FrameBlock:
     def __init__(self, ctx: moderngl.Context) -> None:
         self.data = np.zeros(1, FRAME_DTYPE)
         self._breeze = Breeze()
-        self._drift = np.zeros(2)  # m, of the clouds
         self.buffer = ctx.buffer(reserve=FRAME_DTYPE.itemsize, dynamic=True)
 
     def attach(self, *programs: moderngl.Program, name: str = "Frame") -> None:
@@ -74,10 +72,9 @@ class FrameBlock:
         row["horizon_color"] = (*env.horizon_color, env.fog_density)
         row["ground_color"] = (*env.ground_color, 0.0)
         breeze = self._breeze
-        passed = breeze.advance(time, env.wind)
-        self._drift += passed * CLOUD_SPEED * np.array([env.wind[0], env.wind[2]])
+        breeze.advance(time, env.wind)
         wets = 0.0 if env.water is None else 2.0 if env.snow else 1.0
-        row["drift"] = (*self._drift, wets, breeze.wave)
+        row["drift"] = (0.0, 0.0, wets, breeze.wave)
         row["wind"] = (*breeze.way, breeze.front, breeze.sway)
         row["gusts"] = breeze.past().reshape(-1, 4)
         areas = [a for a in env.rain_areas if a[3] > 0.0][:AREAS]
@@ -89,9 +86,7 @@ class FrameBlock:
             row["area_shape"][k] = (*center, 1.0 / a, 1.0 / b)
             turn = (math.cos(heading), math.sin(heading))
             row["area_turn"][k] = (*turn, 0.35 + 0.5 * strength, min(1.0, 0.45 + rate / 4.0))
-            base = min(ceiling, 0.55 * max(a, b))  # low enough to be in view with its rain
-            thick = 0.80 * max(a, b)
-            row["area_cloud"][k] = (base + thick, thick, 1.75, 0.25 + 0.72 * strength)
+            row["area_cloud"][k] = (ceiling, 0.12 + 0.36 * strength, 0.0, 0.0)
 
     def upload(self) -> None:
         """Send the block and bind it."""

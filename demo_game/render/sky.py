@@ -8,11 +8,9 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from demo_game.place import paint
-
 from .environment import Environment
 from .frame_block import FrameBlock
-from .programs import compile_program, release_all, scissor, set_matrix, set_uniforms
+from .programs import compile_program, release_all, scissor, set_matrix
 
 JUMP = 25.0  # m the camera moves in one map's time that calls for a fresh one at once
 CHANGE = 0.12  # likewise for colours and cover
@@ -23,9 +21,6 @@ class Sky:
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, size: int, rows: int) -> None:
         self.ctx, self.size, self.rows = ctx, size, rows
-        table = paint.clouds()
-        self._clouds = ctx.texture((table.shape[1], table.shape[0]), 2, table.tobytes())
-        self._clouds.filter = (moderngl.LINEAR, moderngl.LINEAR)
         self.maps = [ctx.texture((size, size), 4) for _ in range(3)]
         for texture in self.maps:
             texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
@@ -51,8 +46,6 @@ class Sky:
     def paint(self, camera: NDArray, environment: Environment) -> None:
         """Paint this frame's rows, or all of them where the world has jumped."""
         self._state = _state(camera, environment)
-        set_uniforms(self._bake, cloud_map=0)
-        self._clouds.use(0)
         self.ctx.enable_only(moderngl.NOTHING)
         if self._painted is None or _jumped(self._painted, self._state):
             self._rows(1, 0, self.size)
@@ -93,7 +86,7 @@ class Sky:
         release_all((self._show_array, self._bake_array, self._quad, self._grid))
         release_all((self._show, self._bake))
         release_all(self._targets)
-        release_all((*self.maps, self._clouds))
+        release_all(self.maps)
 
 
 def _grid(columns: int = 24, rows: int = 16) -> NDArray:
