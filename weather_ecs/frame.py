@@ -269,6 +269,33 @@ class CloudLook:
     shadows: bool = True
 
 
+STRIKE_DTYPE = np.dtype(
+    [
+        ("number", "i8"),  # of the strike; only ever compared
+        ("word", "i8"),  # that its shape follows from; see `physics.lightning_bolt`
+        ("origin", "f8", 3),  # m
+        ("target", "f8", 3),  # m
+        ("place", "f8", 3),  # m, where its light comes from for what is below the clouds
+        ("cloud_place", "f8", 3),  # m, and for the clouds
+        ("age", "f8"),  # s
+        ("light", "f8"),  # of it now, times the look's colour; 1: of a day, nearby
+        ("leader", "f8"),  # 0 to 1: how far it has come
+        ("ground", "?"),  # it comes down
+        ("again", "?"),  # a later stroke: the branches are dark
+    ]
+)
+
+
+@dataclass(frozen=True, slots=True)
+class LightningLook:
+    """Looks of lightning; see `components.Lightning`."""
+
+    color: tuple[float, float, float] = (0.80, 0.88, 1.0)  # linear RGB
+    width: float = 2.2  # m that the channel seems wide
+    glow: float = 1.0  # factor on the air's glow round it
+    branches: float = 1.0  # factor on their number
+
+
 @dataclass(frozen=True, slots=True)
 class FrameData:
     """One frame's weather, world axes, SI units unless a field says otherwise."""
@@ -296,6 +323,8 @@ class FrameData:
     # Areas whose rain has begun or ended of late, by key: spells without, s; see `physics.front`.
     fronts: Mapping[int, Spells] = field(default_factory=lambda: NO_FRONTS)
     flakes: SnowLook = field(default_factory=SnowLook)
+    strikes: NDArray = field(default_factory=lambda: empty(STRIKE_DTYPE))
+    lightning: LightningLook = field(default_factory=LightningLook)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple, Protocol
 
 from weather_ecs.frame import FrameData
+from weather_ecs.physics.lightning import on_surface
 from weather_ecs.physics.optics import CONTRAST, falling_extinction
 from weather_ecs.physics.phase import share_at, temperature_at
 from weather_ecs.physics.rain_field import RainField
@@ -52,6 +53,7 @@ class SampleField:
     __slots__ = (
         "_air",
         "_day_light",
+        "_flashes",
         "_fog",
         "_ground",
         "_lights",
@@ -80,6 +82,10 @@ class SampleField:
         self._lights = [
             (*position, reach, luminance(color)) for position, color, reach in frame.lights.tolist()
         ]
+        shine = luminance(frame.lightning.color)
+        self._flashes = [
+            (tuple(row["place"].tolist()), shine * float(row["light"])) for row in frame.strikes
+        ]
         sky = frame.sky
         self._day_light = luminance(sky.sun_color) * max(sky.sun_direction[1], 0.0) + 0.5 * (
             luminance(sky.zenith_color) + luminance(sky.horizon_color)
@@ -99,13 +105,15 @@ class SampleField:
         return self._shelter is not None and self._shelter.covers(x, y, z)
 
     def light(self, x: float, y: float, z: float) -> float:
-        """Luminance of day light and lamps; a lamp's falls as (1 - (d / reach)^2)^2."""
+        """Luminance of day light, lightning and lamps; a lamp's falls as (1 - (d / reach)^2)^2."""
         total = self._day_light
         for lx, ly, lz, reach, strength in self._lights:
             dx, dy, dz = x - lx, y - ly, z - lz
             left = 1.0 - (dx * dx + dy * dy + dz * dz) / (reach * reach)
             if left > 0.0:
                 total += strength * left * left
+        for place, strength in self._flashes:
+            total += strength * on_surface(place, (x, y, z), (0.0, 1.0, 0.0))
         return total
 
     def at(self, x: float, y: float, z: float) -> Sample:

@@ -25,6 +25,7 @@ from weather_ecs.physics.ground_law import SnowLaw
 from weather_ecs.systems.cloud_field import CloudField
 from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.state import WeatherState
+from weather_ecs.systems.strikes import StrikeField
 from weather_ecs.systems.wet_ground import WetGround
 
 MAGIC = b"WECS"
@@ -38,7 +39,9 @@ _NAMES = {
     name: tuple(sorted(field.name for field in fields(kind)))  # type: ignore[arg-type]
     for name, kind in SNAPSHOT_COMPONENTS.items()
 }
-_PARTS = {"clock", "clouds", "entities", "fronts", "next_uid", "rng", "seed", "snow", "wetness"}
+_PARTS = {
+    "clock", "clouds", "entities", "fronts", "lightning", "next_uid", "rng", "seed", "snow", "wetness",
+}  # fmt: skip
 
 
 class Entity(NamedTuple):
@@ -56,6 +59,7 @@ class Loaded(NamedTuple):
     clock: Clock
     clouds: CloudField
     fronts: RainFronts
+    strikes: StrikeField
     next_uid: int
     entities: list[Entity]
     wet_ground: WetGround
@@ -118,6 +122,7 @@ def capture(state: WeatherState) -> dict[str, Any]:
         "clouds": state.clouds.state(),
         "entities": [[uid, entities[uid]] for uid in sorted(entities)],
         "fronts": state.fronts.state(),
+        "lightning": state.strikes.state(),
         "next_uid": state.uids.next,
         "rng": state.rng.bit_generator.state,
         "seed": state.seed,
@@ -158,6 +163,7 @@ def _load(document: dict[str, Any]) -> Loaded:
         clock=Clock.from_state(document["clock"]),
         clouds=CloudField.from_state(document["clouds"], seed),
         fronts=RainFronts.from_state(document["fronts"]),
+        strikes=StrikeField.from_state(document["lightning"]),
         next_uid=next_uid,
         entities=entities,
         wet_ground=WetGround.from_state(document["wetness"]),
@@ -201,6 +207,7 @@ def apply(state: WeatherState, loaded: Loaded) -> None:
     state.clock = loaded.clock
     state.clouds = loaded.clouds
     state.fronts = loaded.fronts
+    state.strikes = loaded.strikes
     state.wet_ground = loaded.wet_ground
     state.snow_ground = loaded.snow_ground
     state.uids.assign(assigned, loaded.next_uid)

@@ -15,12 +15,13 @@ from weather_ecs import cloud_world, snapshot
 from weather_ecs.cloud_files import CloudFile, load_clouds, save_clouds
 from weather_ecs.cloud_presets import find_model
 from weather_ecs.components import Cloud, Observer, Occluder, RainGauge, RippleSurface
-from weather_ecs.components._base import FAR, integer, vector
+from weather_ecs.components._base import FAR, integer, number, vector
 from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, WeatherError
 from weather_ecs.frame import FrameData
 from weather_ecs.observer_keys import ObserverKeys
 from weather_ecs.physics.camera import Camera, camera_from
 from weather_ecs.physics.footprint import SlopeFollower, fall_slope, fall_speed_over, landing_wind
+from weather_ecs.physics.lightning import GREATEST_CURRENT, LEAST_CURRENT
 from weather_ecs.physics.rain_field import RainField
 from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, settings_for
 from weather_ecs.sampling import Sample, SampleField
@@ -30,6 +31,7 @@ from weather_ecs.systems.climate import oldest_state
 from weather_ecs.systems.cloud_models import ModelBook
 from weather_ecs.systems.cloud_rain import remove_all
 from weather_ecs.systems.gauge import GaugeBoard
+from weather_ecs.systems.lightning import called as call_strike
 from weather_ecs.systems.queries import in_world, living
 from weather_ecs.systems.rain_view import RainView
 from weather_ecs.systems.shelter import ShelterIndex
@@ -48,6 +50,7 @@ BACKENDS = ("auto", "compute", "feedback")
 
 _check_seed = integer(0, 2**63 - 1)
 _check_position = vector(3, -FAR, FAR)
+_check_current = number(LEAST_CURRENT, GREATEST_CURRENT)
 
 
 class Weather:
@@ -210,6 +213,23 @@ class Weather:
         with in_world(self._world):
             content = cloud_world.gather()
         save_clouds(path, content)
+
+    def strike(
+        self, target: Any = None, *, origin: Any = None, current: float | None = None
+    ) -> None:
+        """Let lightning strike in the next fixed step; places are (x, y, z) in metres.
+
+        It ends at `target`; without one on the ground below `origin`, or on what stands near. It
+        begins at `origin`, or some 1500 m over the target. `current` is that of its first stroke in
+        kA, 3 to 300; chance draws one otherwise. Raises InvalidValueError for neither place.
+        """
+        self._check_open()
+        if target is None and origin is None:
+            raise InvalidValueError("target", target, "a place, or an origin to strike from")
+        end = None if target is None else _check_position("target", target)
+        begin = None if origin is None else _check_position("origin", origin)
+        amount = None if current is None else _check_current("current", current)
+        call_strike(self._state, end, begin, amount)
 
     # Drawing
 

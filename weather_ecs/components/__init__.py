@@ -12,6 +12,7 @@ from weather_ecs.components.cloud_seed import CloudSeed
 from weather_ecs.components.cloud_shading import CloudShading
 from weather_ecs.components.collision_heightmap import CollisionHeightmap
 from weather_ecs.components.fog import Fog
+from weather_ecs.components.lightning import Lightning
 from weather_ecs.components.observer import Observer
 from weather_ecs.components.occluder import Occluder
 from weather_ecs.components.point_light import PointLight
@@ -38,6 +39,7 @@ SNAPSHOT_COMPONENTS: dict[str, type[Component]] = {
         CloudShading,
         CollisionHeightmap,
         Fog,
+        Lightning,
         PointLight,
         RainArea,
         RainContainer,
@@ -60,6 +62,7 @@ __all__ = [
     "CloudShading",
     "CollisionHeightmap",
     "Fog",
+    "Lightning",
     "Observer",
     "Occluder",
     "PointLight",

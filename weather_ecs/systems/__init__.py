@@ -9,6 +9,7 @@ from weather_ecs.systems.cloud_light import CloudLightSystem
 from weather_ecs.systems.cloud_rain import CloudRainSystem
 from weather_ecs.systems.clouds import CloudSystem
 from weather_ecs.systems.extract import ExtractSystem
+from weather_ecs.systems.lightning import LightningSystem
 from weather_ecs.systems.processor import System, WeatherProcessor
 from weather_ecs.systems.rain_area import RainAreaSystem
 from weather_ecs.systems.state import WeatherState
@@ -31,6 +32,7 @@ SCHEDULE: tuple[Row, ...] = (
     Row(CloudSystem, 150, "step", "after wind and climate: they say what comes in, and where"),
     Row(RainAreaSystem, 200, "step", "after the wind, which carries the areas"),
     Row(CloudRainSystem, 250, "step", "after the areas have moved: puts its own under clouds"),
+    Row(LightningSystem, 260, "step", "after the clouds, in which it strikes"),
     Row(WetnessSystem, 300, "step", "after the areas have moved: it rains where they are now"),
     Row(CloudLightSystem, 800, "frame", "before the frame is published, which shows its light"),
     Row(ExtractSystem, 900, "frame", "last: publishes what all the others have made"),
@@ -50,6 +52,7 @@ __all__ = [
     "CloudRainSystem",
     "CloudSystem",
     "ExtractSystem",
+    "LightningSystem",
     "RainAreaSystem",
     "Row",
     "System",

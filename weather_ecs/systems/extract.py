@@ -14,6 +14,7 @@ from weather_ecs.components import (
     Air,
     CollisionHeightmap,
     Fog,
+    Lightning,
     PointLight,
     RainArea,
     RainContainer,
@@ -36,6 +37,7 @@ from weather_ecs.frame import (
     FrameData,
     GaugeData,
     HeightmapLook,
+    LightningLook,
     OccluderData,
     SkyLight,
     SnowLook,
@@ -45,11 +47,13 @@ from weather_ecs.frame import (
 from weather_ecs.systems.air import air_data, fog_data
 from weather_ecs.systems.cloud_list import CloudList
 from weather_ecs.systems.gauge import GaugeList
+from weather_ecs.systems.lightning import settings_of
 from weather_ecs.systems.occluders import OccluderList
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.rain_area import area_rows, drift_velocity, dry_spells
 from weather_ecs.systems.ripples import RippleList
 from weather_ecs.systems.state import WeatherState
+from weather_ecs.systems.strike_list import StrikeList, look_of
 from weather_ecs.systems.wind import CALM, varies, winds_at
 
 _KINDS = (
@@ -65,6 +69,7 @@ _KINDS = (
     Air,
     Fog,
     CloudShading,
+    Lightning,
 )
 _LOOK = tuple(item.name for item in fields(DropLook))
 _CLOUDS = tuple(item.name for item in fields(CloudLook))
@@ -103,6 +108,7 @@ class ExtractSystem:
         self._heightmap, self._layers = HeightmapLook(), ALL_LAYERS
         self._gauges = GaugeList()
         self._clouds = CloudList()
+        self._strikes, self._lightning, self._brightness = StrikeList(), LightningLook(), 0.0
         self._time = -1.0
 
     @property
@@ -143,6 +149,7 @@ class ExtractSystem:
             self._frame = frame = replace(frame, gauges=gauges)
         if state.drawn:
             clouds, shapes = self._clouds.collect(state, frame.sky, frame.wind, frame.profile)
+            clouds = self._strikes.lit(clouds, shapes, frame.strikes)
             if clouds is not frame.clouds or shapes is not frame.cloud_shapes:
                 self._frame = frame = replace(frame, clouds=clouds, cloud_shapes=shapes)
         return frame
@@ -182,6 +189,8 @@ class ExtractSystem:
             air=self._air,
             fog=self._fog,
             profile=self._profile,
+            strikes=self._strikes.rows(state, self._brightness),
+            lightning=self._lightning,
             fronts=dry_spells(self._changing, state.fronts, clock.remainder),
         )
 
@@ -211,6 +220,8 @@ class ExtractSystem:
         lights = _frozen(lamps, LIGHT_DTYPE) if lamps else _NO_LIGHTS
         self._parts = (lights, _sky(state), _look(state))
         self._air, self._fog = air_data(state), fog_data(state, self._parts[1])
+        own = settings_of(state)
+        self._lightning, self._brightness = look_of(own), own.brightness
         self._splash = _splash(state)
         self._flakes = _flakes(state)
         self._cloud_look = _cloud_look(state)

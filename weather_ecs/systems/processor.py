@@ -45,3 +45,11 @@ class WeatherProcessor(esper.Processor):
         for system in self._frame:
             system.run(state)
         self._after()
+        self._tell()
+
+    def _tell(self) -> None:
+        """Hand the events over to esper, in their order; a handler that raises keeps none back."""
+        events = self.state.events
+        while events:
+            name, values = events.pop(0)
+            esper.dispatch_event(name, *values)

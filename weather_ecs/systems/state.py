@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from weather_ecs.clock import STEP, Clock
@@ -11,6 +13,7 @@ from weather_ecs.systems.cloud_field import CloudField
 from weather_ecs.systems.cloud_models import ModelBook
 from weather_ecs.systems.cloud_shapes import ShapeLibrary
 from weather_ecs.systems.rain_fronts import RainFronts
+from weather_ecs.systems.strikes import StrikeField
 from weather_ecs.systems.uids import Uids
 from weather_ecs.systems.wet_ground import WetGround
 
@@ -23,6 +26,7 @@ class WeatherState:
         "cloud_shapes",
         "clouds",
         "drawn",
+        "events",
         "fronts",
         "models",
         "profile",
@@ -30,6 +34,7 @@ class WeatherState:
         "seed",
         "snow_ground",
         "step",
+        "strikes",
         "uids",
         "wet_ground",
         "wind",
@@ -42,6 +47,7 @@ class WeatherState:
         self.uids = Uids()
         self.clouds = CloudField()
         self.fronts = RainFronts()
+        self.strikes = StrikeField()
         self.wet_ground = WetGround()
         self.snow_ground = WetGround(SnowLaw())
         self.step = 0  # the fixed step that the systems are at
@@ -50,6 +56,7 @@ class WeatherState:
         # What follows from all that, or is the same for good.
         self.models = models or ModelBook()
         self.cloud_shapes = ShapeLibrary()
+        self.events: list[tuple[str, tuple[Any, ...]]] = []  # names and values, to be told of
         self.drawn = False  # somebody draws this weather, and needs what only pictures show
 
     @property
