@@ -339,19 +339,21 @@ def test_a_state_comes_back():
 AREA = [0, [0, 0], [1, 1], 0, 5.0, 1, 400]
 LEVEL = {
     "level": 0,
-    "places": [[0, 0]],
+    "places": [[0], [0]],
     "codes": "00" * 128,
+    "resting": {"ages": [5], "codes": "50" + "00" * 63, "places": [[1], [0]]},
     "melt": 0.0,
     "rows": [],
     "since": GOOD["ticks"] - 3,
     "way": [[2, [AREA]], [1, [AREA], [[0, 1, 4.0]]]],
 }
+NONE = {"ages": [], "codes": "", "places": [[], []]}
 RAINED = {**LEVEL, "since": GOOD["ticks"], "way": [], "rows": [AREA]}
 
 
 def test_the_level_that_the_bad_ones_are_made_of_is_good():
     WetGround.from_state({**GOOD, "levels": [LEVEL]})
-    WetGround.from_state({**GOOD, "levels": [{**LEVEL, "places": [], "codes": ""}]})
+    WetGround.from_state({**GOOD, "levels": [{**LEVEL, "places": [[], []], "codes": ""}]})
     WetGround.from_state({**GOOD, "levels": [RAINED]})
 
 
@@ -399,14 +401,22 @@ BAD = [
             ("codes", "zz" * 128),
             ("codes", "ff" * 128),
             ("codes", 5),
-            ("places", [[0, 2**40]]),
+            ("places", [[0], [2**40]]),
             ("places", [[0, 0], [0, 0]]),
             ("places", [[0]]),
+            ("places", [[0], [0.5]]),
             ("places", 7),
+            ("resting", None),
+            ("resting", {**LEVEL["resting"], "ages": [-1]}),
+            ("resting", {**LEVEL["resting"], "ages": [5000]}),
+            ("resting", {**LEVEL["resting"], "ages": []}),
+            ("resting", {**LEVEL["resting"], "codes": "ff" * 64}),
+            ("resting", {**LEVEL["resting"], "codes": "00" * 64}),
+            ("resting", {**LEVEL["resting"], "places": [[0], [0]]}),
         )
     ],
-    ("levels", [{**RAINED, "rows": [], "places": [], "codes": ""}]),
-    ("levels", [{**LEVEL, "places": [[1, 0], [0, 0]], "codes": "00" * 256}]),
+    ("levels", [{**RAINED, "rows": [], "places": [[], []], "codes": "", "resting": NONE}]),
+    ("levels", [{**LEVEL, "places": [[1, -1], [0, 0]], "codes": "00" * 256}]),
 ]
 
 

@@ -32,6 +32,10 @@ class GroundLaw(Protocol):
     def melt(self) -> float:
         """mm/s that melt."""
 
+    @property
+    def rests(self) -> bool:
+        """Whether a film on which nothing falls dries by `physics.wetness.DRYING` alone."""
+
     def settle(self, layer: Array, inflow: Array, seconds: float) -> Array:
         """The layer after some seconds."""
 
@@ -64,6 +68,7 @@ class WaterLaw:
     most: float = 16.0
     planes: int = 2
     melt: float = 0.0
+    rests: bool = True
 
     def settle(self, layer: Array, inflow: Array, seconds: float) -> Array:
         return wetness.settle(layer, inflow, wetness.FILM, seconds)
@@ -98,6 +103,7 @@ class SnowLaw:
     melt: float = 0.0
     most: float = 400.0  # 4 m deep
     planes: int = 3  # it lies for long: light snow on deep snow must still count
+    rests: bool = False
 
     def settle(self, layer: Array, inflow: Array, seconds: float) -> Array:
         return collect(layer, inflow, self.melt, seconds)

@@ -7,8 +7,13 @@ of the interval, so that nothing has to be remembered and any moment can be aske
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
-from .chance import scramble, uniform
+from .chance import scramble
+from .chance import uniform as chance
+
+# The wind is asked for twenty times a second, and has other gusts every twenty seconds.
+uniform = lru_cache(128)(chance)
 
 # Of a gust of a train, shares of its interval: shortest duration, and how much longer it may be;
 # weakest peak and how much stronger; earliest rise, as a share of its duration, and how much later.
@@ -77,6 +82,7 @@ def veer_now(t: float, period: float, key: int) -> float:
     return here + (there - here) * _ease(half - number)
 
 
+@lru_cache(32)
 def key_of(seed: int, uid: int) -> int:
     """The key of the wind of an entity."""
     return scramble(seed, uid)

@@ -20,10 +20,17 @@ def alive(component_type: type[C], uids: Uids) -> list[tuple[int, C]]:
     if not pairs:
         return []
     exists, current = esper.entity_exists, uids.current()
+    known = uids.found.get(component_type)
+    # esper keeps its answers until something comes or goes; a pending deletion is no such thing.
+    same = known is not None and known[0] is pairs and known[1] is current
+    if known is not None and same and all(map(exists, known[2])):
+        return list(known[3])
     found = [(current[entity], component) for entity, component in pairs if exists(entity)]
     if len(found) > 1:
         found.sort(key=_first)
-    return found
+    if len(found) == len(pairs):
+        uids.found[component_type] = (pairs, current, [pair[0] for pair in pairs], found)
+    return list(found)
 
 
 def living(component_type: type[C]) -> list[tuple[int, C]]:

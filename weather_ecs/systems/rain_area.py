@@ -63,15 +63,16 @@ class RainAreaSystem:
         found = alive(RainArea, state.uids)
         state.fronts.step(found)
         wind, profile, moved = state.wind, state.profile, False
+        step, far, put = STEP, FAR, _set
         for _, area in found:
             vx, vz = drift_velocity(area, wind, profile) if area.drift > 0.0 else area.velocity
             if vx or vz:
                 x, z = area.center
-                x += vx * STEP
-                z += vz * STEP
-                if not (-FAR <= x <= FAR and -FAR <= z <= FAR):
-                    x, z = min(max(x, -FAR), FAR), min(max(z, -FAR), FAR)
-                _set(area, "center", (x, z))
+                x += vx * step
+                z += vz * step
+                if not (-far <= x <= far and -far <= z <= far):
+                    x, z = min(max(x, -far), far), min(max(z, -far), far)
+                put(area, "center", (x, z))
                 moved = True
         if moved:
             RainArea._revision[0] += 1

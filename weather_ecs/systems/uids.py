@@ -8,6 +8,8 @@ import esper
 
 from weather_ecs.components import SNAPSHOT_COMPONENTS
 
+_KINDS = tuple(SNAPSHOT_COMPONENTS.values())
+
 
 class Uids:
     """Numbers the entities that carry weather components in the order they are first seen.
@@ -21,6 +23,7 @@ class Uids:
         self.by_entity: dict[int, int] = {}  # as of the last commit
         self.next = 0
         self._current: dict[int, int] = {}  # as a commit would make it now
+        self.found: dict[type, tuple] = {}  # what `systems.queries` has found with these numbers
         self._lists: tuple[list[Any], ...] = ()
         self._counter: object = None
 
@@ -37,9 +40,14 @@ class Uids:
                 self.by_entity = {}
             self._counter = counter
             self._lists = ()
-        lists = tuple([esper.get_component(kind) for kind in SNAPSHOT_COMPONENTS.values()])
-        if len(lists) == len(self._lists) and all(map(_same, lists, self._lists)):
-            return self._current  # esper keeps its answers until something comes or goes
+        if self._lists:  # esper keeps its answers until something comes or goes
+            get = esper.get_component
+            for kind, before in zip(_KINDS, self._lists, strict=True):
+                if get(kind) is not before:
+                    break
+            else:
+                return self._current
+        lists = tuple([esper.get_component(kind) for kind in _KINDS])
         known = self.by_entity
         found = {pair[0] for pairs in lists for pair in pairs}
         entities = sorted(filter(esper.entity_exists, found))
@@ -67,7 +75,3 @@ class Uids:
         self.by_entity = dict(by_entity)
         self.next = following
         self._lists = ()
-
-
-def _same(one: object, other: object) -> bool:
-    return one is other

@@ -13,6 +13,7 @@ import itertools
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.clock import STEP
@@ -43,6 +44,7 @@ class WetGround:
         self.levels: dict[int, WetLevel] = {}
         self._rows = NO_AREAS
         self._groups: dict[int, NDArray] = {}  # the raining ones of these by level
+        self._members: tuple[bytes, dict[int, NDArray]] = (b"", {})
         self._data: WetnessData | None = None
 
     def step(self) -> bool:
@@ -59,7 +61,7 @@ class WetGround:
         if law is not None:
             self.law = law
         if rows is not self._rows:
-            self._rows, self._groups = rows, _grouped(rows)
+            self._rows, self._groups = rows, self._grouped(rows)
         if not self._groups and not self.levels:
             return
         for level in sorted(self._groups.keys() | self.levels.keys()):
@@ -69,6 +71,22 @@ class WetGround:
             known.tick(self._groups.get(level, NO_AREAS), self.ticks, self.law)
             if known.is_dry:
                 del self.levels[level]
+
+    def _grouped(self, rows: NDArray) -> dict[int, NDArray]:
+        """The areas where it rains, by level; read-only."""
+        rains = rows["rain_rate"] > 0.0
+        name = rains.tobytes() + rows["radii"].tobytes()
+        if name != self._members[0]:
+            levels = np.array([level_of(*radii) for radii in rows["radii"].tolist()], int)
+            found = {
+                level: np.flatnonzero(rains & (levels == level))
+                for level in sorted(set(levels[rains].tolist()))
+            }
+            self._members = name, found
+        groups = {level: rows[members] for level, members in self._members[1].items()}
+        for each in groups.values():
+            each.setflags(write=False)
+        return groups
 
     def at(self, x: float, y: float, z: float, rate: float, time: float) -> float:
         """mm at a place at the clock's `time`, where it rains at `rate` mm/h now."""
@@ -122,14 +140,3 @@ class WetGround:
                 raise InvalidValueError("wetness.level", name, "levels in order, each once")
             ground.levels[name] = level
         return ground
-
-
-def _grouped(rows: NDArray) -> dict[int, NDArray]:
-    """The areas where it rains, by level; read-only."""
-    rows = rows[rows["rain_rate"] > 0.0]
-    levels = [level_of(*radii) for radii in rows["radii"].tolist()]
-    groups = {}
-    for level in set(levels):
-        groups[level] = rows[[other == level for other in levels]]
-        groups[level].setflags(write=False)
-    return groups

@@ -147,12 +147,12 @@ class WetLevel:
 
         Raises InvalidValueError for anything else.
         """
-        fields = ["codes", "level", "melt", "places", "rows", "since", "way"]
+        fields = ["codes", "level", "melt", "places", "resting", "rows", "since", "way"]
         if not isinstance(state, dict) or sorted(state) != fields:
             raise InvalidValueError("wetness.levels", state, f"the fields {fields}")
         if type(state["melt"]) is not float or not 0.0 <= state["melt"] <= FASTEST_MELT:
             raise InvalidValueError("wetness.melt", state["melt"], "0 to 1 mm/s")
-        kept = {name: state[name] for name in ("codes", "level", "places")}
+        kept = {name: state[name] for name in ("codes", "level", "places", "resting")}
         tiles = WetTiles.from_state(kept, law(state["melt"]))
         found = cls(tiles.level, whole("wetness.since", state["since"], ticks))
         found.tiles = tiles

@@ -1,6 +1,6 @@
 """`WetTiles`: the cells of one size on which water or snow lies, in tiles of 8 by 8.
 
-They exist only where there is any.
+They exist only where there is any, and those on which no rain falls are put to rest.
 """
 
 from __future__ import annotations
@@ -14,14 +14,21 @@ from numpy.typing import NDArray
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.ground_law import WATER, GroundLaw
 from weather_ecs.physics.rain_field import plain_rows
-from weather_ecs.physics.wetness import MM_PER_S
+from weather_ecs.physics.wetness import FILM, MM_PER_S
+from weather_ecs.systems.wet_rest import (
+    TRACE,
+    Resting,
+    expected,
+    packed,
+    raw_bytes,
+    surprises,
+    unpacked,
+)
 from weather_ecs.systems.wet_shares import SIDE, Fallen, Patterns, Shape, moments
 
 FINEST, COARSEST = -2, 40  # levels; a cell is 2**level m wide
 MOST_TILES = 1024
-_TRACE = 1e-2  # mm, less is dry
 _CELLS = 256  # of an area, about
-_FAR = 2**31
 
 
 def level_of(a: float, b: float) -> int:
@@ -46,9 +53,10 @@ class WetTiles:
         self._codes = np.zeros((0, SIDE, SIDE), np.uint32)  # (tile, along z, along x)
         self._inflow = np.zeros((0, SIDE, SIDE))  # mm/s
         self._patterns = Patterns(self.cell)
+        self._resting = Resting()
 
     def __len__(self) -> int:
-        return len(self._places)
+        return len(self._places) + len(self._resting.tiles)
 
     def rain(self, areas: NDArray, weight: float = 1.0) -> None:
         """Add the rain of standing areas (AREA_DTYPE) to what the next `settle` lets fall."""
@@ -82,6 +90,7 @@ class WetTiles:
         tiles = WetTiles(self.level, self.law)
         tiles._patterns = self._patterns
         tiles._take(list(self._places), self._codes[: len(self._places)].copy())
+        tiles._resting = self._resting.copy()
         return tiles
 
     def _row(self, place: tuple[int, int]) -> int:
@@ -93,6 +102,9 @@ class WetTiles:
                 more = np.zeros((max(row, 16), SIDE, SIDE))
                 self._codes = np.concatenate([self._codes, more.astype(np.uint32)])
                 self._inflow = np.concatenate([self._inflow, more])
+            lain = self._resting.take(place)
+            if lain is not None:
+                self._codes[row] = self._encode(lain)
         return row
 
     def settle(self, seconds: float) -> None:
@@ -105,11 +117,16 @@ class WetTiles:
         falls |= rained
         if falls.any():
             water[falls] = self.law.settle(before[falls], inflow[falls], seconds)
+        self._resting.pass_time(seconds, MOST_TILES)
+        wettest = water.max(axis=(1, 2), initial=0.0)
+        kept = (wettest > TRACE) | rained
+        if self.law.rests:
+            rests = kept & ~rained & (wettest <= FILM)
+            self._resting.put([self._places[k] for k in np.flatnonzero(rests)], water[rests])
+            kept &= ~rests
         codes = self._encode(water)
-        wettest = codes.max(axis=(1, 2), initial=0)
-        kept = (wettest > self._encode(np.array(_TRACE))) | rained
         if np.count_nonzero(kept) > MOST_TILES:
-            order = np.argsort(np.where(kept, wettest.astype(int), -1), kind="stable")
+            order = sorted(np.flatnonzero(kept), key=lambda k: (wettest[k], self._places[k]))
             kept[order[:-MOST_TILES]] = False
         self._take([p for p, keep in zip(self._places, kept, strict=True) if keep], codes[kept])
 
@@ -134,14 +151,16 @@ class WetTiles:
     def _cell(self, i: int, j: int) -> float:
         row = self._rows.get((i >> 3, j >> 3))
         if row is None:
-            return 0.0
+            return self._resting.cell((i >> 3, j >> 3), i & 7, j & 7)
         root = self._codes.item(row, j & 7, i & 7) / self._steps
         return root * root * self.law.most
 
     def arrays(self) -> tuple[float, NDArray[np.int64], NDArray[np.float32]]:
         """(cell in m, tiles (n, 2), water (n, 8, 8) in mm, rows along z)."""
-        places = np.array(self._places, np.int64).reshape(-1, 2)
-        return self.cell, places, self._decode(self._codes[: len(places)]).astype(np.float32)
+        places = np.array([*self._places, *self._resting.tiles], np.int64).reshape(-1, 2)
+        water = self._decode(self._codes[: len(self._places)])
+        both = np.concatenate([water, self._resting.water()])
+        return self.cell, places, both.astype(np.float32)
 
     def _encode(self, water: NDArray) -> NDArray[np.uint32]:
         share = np.clip(water / self.law.most, 0.0, 1.0)
@@ -154,56 +173,38 @@ class WetTiles:
     # For snapshots
 
     def state(self) -> dict[str, Any]:
-        """All there is to it, as plain values; neighbours' differences are what compresses."""
+        """All there is to it, as plain values."""
         order = sorted(range(len(self._places)), key=self._places.__getitem__)
-        values = self._codes[order].reshape(-1).astype(np.int32)
-        steps = values.copy()
-        steps[1:] -= values[:-1]
+        values = surprises(self._codes[order])
         planes = [
-            (steps >> 8 * k & 0xFF).astype(np.uint8) for k in reversed(range(self.law.planes))
+            (values >> np.uint32(8 * k)).astype(np.uint8) for k in reversed(range(self.law.planes))
         ]
         return {
             "codes": b"".join([plane.tobytes() for plane in planes]).hex(),
             "level": self.level,
-            "places": [list(self._places[k]) for k in order],
+            "places": packed([self._places[k] for k in order]),
+            "resting": self._resting.state(),
         }
 
     @classmethod
     def from_state(cls, state: Any, law: GroundLaw = WATER) -> WetTiles:
         """The tiles that `state` was taken of. Raises InvalidValueError for anything else."""
-        fields = ["codes", "level", "places"]
+        fields = ["codes", "level", "places", "resting"]
         if not isinstance(state, dict) or sorted(state) != fields:
             raise InvalidValueError("wetness.tiles", state, f"the fields {fields}")
-        level, places, codes = state["level"], state["places"], state["codes"]
+        level = state["level"]
         if type(level) is not int or not FINEST <= level <= COARSEST:
             raise InvalidValueError("wetness.level", level, f"{FINEST} to {COARSEST}")
-        if not isinstance(places, list) or len(places) > 2 * MOST_TILES:
-            raise InvalidValueError("wetness.places", places, f"up to {2 * MOST_TILES} tiles")
-        named = [_place(place) for place in places]
-        if any(one >= other for one, other in zip(named, named[1:], strict=False)):
-            raise InvalidValueError("wetness.places", places, "tiles in order, each once")
-        count = len(named) * SIDE * SIDE
-        try:
-            raw = np.frombuffer(bytes.fromhex(codes), np.uint8)
-        except (TypeError, ValueError):
-            raise InvalidValueError("wetness.codes", codes, "hexadecimal digits") from None
-        planes = law.planes
-        if len(raw) != planes * count:
-            allowed = f"{2 * planes * count} hexadecimal digits"
-            raise InvalidValueError("wetness.codes", codes, allowed)
-        steps = np.zeros(count, np.int64)
-        for plane in raw.reshape(planes, count):
-            steps = steps << 8 | plane
-        values = np.cumsum(steps) & (1 << 8 * planes) - 1
+        places = unpacked("wetness.places", state["places"], MOST_TILES)
+        planes, values = law.planes, np.zeros(len(places) * SIDE * SIDE, np.uint32)
+        for plane in raw_bytes(state["codes"], planes * len(values)).reshape(planes, -1):
+            values = values << np.uint32(8) | plane
+        codes = expected(values.reshape(-1, SIDE, SIDE)) & np.uint32((1 << 8 * planes) - 1)
         tiles = cls(level, law)
-        if int(values.max(initial=0)) > tiles._steps:
-            raise InvalidValueError("wetness.codes", int(values.max()), f"0 to {tiles._steps}")
-        tiles._take(named, values.astype(np.uint32).reshape(-1, SIDE, SIDE))
+        if int(codes.max(initial=0)) > tiles._steps:
+            raise InvalidValueError("wetness.codes", int(codes.max()), f"0 to {tiles._steps}")
+        tiles._take(places, codes)
+        tiles._resting = Resting.from_state(state["resting"], MOST_TILES)
+        if (not law.rests and tiles._resting.tiles) or tiles._rows.keys() & tiles._resting.tiles:
+            raise InvalidValueError("wetness.resting", state["resting"], "other tiles, of water")
         return tiles
-
-
-def _place(value: Any) -> tuple[int, int]:
-    good = isinstance(value, list) and len(value) == 2
-    if not good or not all(type(n) is int and -_FAR <= n < _FAR for n in value):
-        raise InvalidValueError("wetness.places", value, "two whole numbers")
-    return value[0], value[1]

@@ -16,6 +16,7 @@ from weather_ecs.systems.air import air_data
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.rain_area import area_rows, dry_spells
 from weather_ecs.systems.state import WeatherState
+from weather_ecs.systems.wet_level import NO_AREAS
 
 
 def settling(state: WeatherState) -> float:
@@ -48,6 +49,8 @@ class WetnessSystem:
 
     def _part(self, name: str, rows: NDArray, share: float) -> NDArray:
         """The areas with a share of what falls; the same array where nothing has changed."""
+        if share <= 0.0:
+            return NO_AREAS
         known = self._parts.get(name)
         if known is not None and known[0] is rows and known[1] == share:
             return known[2]
