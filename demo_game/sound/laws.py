@@ -10,8 +10,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+RANGE = 0.75  # dB given for each dB heard outdoors: rooms are louder than a wood at night
+
 LOUDEST_RATE = 150.0  # mm/h; more is not louder
-LEVEL_AT_50 = 0.22  # of rain of 50 mm/h in the open
+LEVEL_AT_50 = 0.12  # of rain of 50 mm/h in the open
 # A drop gives sound energy as the square of its momentum (m v)^2, and as many drops fall as
 # N(D) v: with Marshall and Palmer's sizes (1948) and v as D^0.67 (Atlas and Ulbrich 1977) that
 # is the 8.01st moment of the sizes, which goes as the rate to 0.21 * 9.01: 18.9 dB for ten times
@@ -19,14 +21,14 @@ LEVEL_AT_50 = 0.22  # of rain of 50 mm/h in the open
 # (natural rain noise, Applied Acoustics 2016).
 RAIN_EXPONENT = 0.21 * 9.01
 
-LEVEL_AT_20 = 0.24  # of wind of 20 m/s
+LEVEL_AT_20 = 0.15  # of wind of 20 m/s
 STILL_AIR = 1.2  # m/s, below which one hears none
 # Air that sheds eddies from leaves and twigs sounds as its speed to the sixth (Curle 1955), in a
 # band about Strouhal's 0.2 v / d; over the ear it rumbles below that.
 WIND_EXPONENT = 6.0
 STROUHAL, TWIG = 0.2, 0.006  # 1, m
 RUMBLE_SHARE, RUMBLE = 0.35, 14.0  # of the power; Hz for every m/s
-FASTEST_WIND = 32.0  # m/s; more is not louder
+FASTEST_WIND = 26.0  # m/s; more is not louder
 
 OPEN_CORNER, LEAF_CORNER, ROOF_CORNER = 18000.0, 6000.0, 650.0  # Hz
 ROOF_LOSS = 3.0  # dB of everything outside, beside the low-pass
@@ -56,7 +58,7 @@ def fall_speed(diameter: float | NDArray) -> NDArray:
 def rain_level(rate: float) -> float:
     """Level of rain of a rate in mm/h in the open."""
     held = min(max(rate, 0.0), LOUDEST_RATE)
-    return LEVEL_AT_50 * (held / 50.0) ** (RAIN_EXPONENT / 2.0)
+    return LEVEL_AT_50 * (held / 50.0) ** (RANGE * RAIN_EXPONENT / 2.0)
 
 
 def rain_peak(rate: float) -> float:
@@ -83,7 +85,7 @@ def wind_level(speed: float) -> float:
     if held <= STILL_AIR:
         return 0.0
     begins = min((held - STILL_AIR) / 1.5, 1.0)
-    return begins * LEVEL_AT_20 * (held / 20.0) ** (WIND_EXPONENT / 2.0)
+    return begins * LEVEL_AT_20 * (held / 20.0) ** (RANGE * WIND_EXPONENT / 2.0)
 
 
 def wind_shape(f: NDArray, speed: float) -> NDArray:

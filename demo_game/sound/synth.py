@@ -77,7 +77,9 @@ class Synth:
         level = laws.wind_level(speed)
         if level > 0.0:
             power = power + (amplitudes(laws.wind_shape(FREQUENCIES, speed), level) * gain) ** 2
-        made = self._frames.block(outside, gain, np.sqrt(power))
+        made = self._frames.block(
+            outside, gain.astype(np.float32), np.sqrt(power, dtype=np.float32)
+        )
         made += self._held  # what is not filtered waits the block that the filter takes
         self._held = inside
         volume = now.volume * now.volume
@@ -91,7 +93,7 @@ class Synth:
         step = 1.0 - math.exp(-HOP / RATE / GLIDE)
         for name in FIELDS:
             value, aim = getattr(now, name), getattr(target, name)
-            is_near = not self._begun and name != "volume" or abs(aim - value) < 1e-4
+            is_near = (not self._begun and name != "volume") or abs(aim - value) < 1e-4
             setattr(now, name, aim if is_near else value + step * (aim - value))
         self._begun = True
         keep = math.exp(-HOP / RATE / FLUTTER)

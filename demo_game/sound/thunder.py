@@ -19,10 +19,11 @@ from .overlap import HOP, RATE
 PIECE = 12.0  # m
 NEAREST = 40.0  # m
 HEIGHTS = (2500.0, 5000.0)  # m, of the channel up to the cloud
-IN_CLOUD = (1500.0, 5000.0)  # m, of what runs on inside the cloud
+IN_CLOUD = (2000.0, 6000.0)  # m, of what runs on inside the cloud
 WINDING = 0.30  # rad, of each piece's turn
 BRANCHES, BRANCH = 5, 500.0  # number, m
-ECHOES, ECHO_DELAY = 0.35, 0.9  # amplitude, s: from hills and layers of air
+ECHO_DELAY, ECHO_SPEED = 0.5, 3000.0  # s, m/s: hills and layers of air give a bolt back later,
+SCATTERING = 3000.0  # m, and the more of it the farther it is
 PULSE_PEAK = 90.0  # Hz near the bolt; 50 Hz was measured as the mean from the ground
 LENGTH = 4096  # samples of a pulse
 DISTANCES = np.geomspace(NEAREST, 30_000.0, 28)  # m, for which pulses are kept
@@ -82,6 +83,7 @@ class Thunder:
     def __init__(self, seed: int) -> None:
         self._random = np.random.default_rng(seed)
         self._tail = Tail(LENGTH)
+        pulses()  # made now, so that no strike waits for them
         self._next = 0  # samples given
         self._claps: list[tuple[NDArray, NDArray, NDArray, NDArray]] = []
 
@@ -95,9 +97,11 @@ class Thunder:
         across = np.sqrt(np.clip(1.0 - along**2, 0.0, 1.0))
         loud = across**2 / away * self._random.uniform(0.3, 1.0, away.size)
         time = away / laws.SOUND_SPEED
-        late = self._random.exponential(ECHO_DELAY, away.size)
+        longest = ECHO_DELAY + distance / ECHO_SPEED
+        echoes = distance / (distance + SCATTERING)
+        late = self._random.exponential(longest, away.size)
         time = np.concatenate([time, time + 0.05 + late]) - time.min()
-        loud = np.concatenate([loud, ECHOES * loud * np.exp(-late / ECHO_DELAY)])
+        loud = np.concatenate([loud, echoes * loud * np.exp(-0.5 * late / longest)])
         far = np.concatenate([away, 1.5 * away + 400.0])
         loud *= laws.thunder_level(distance) / _crest(time, loud)
         kinds = np.abs(np.log(far[:, None] / DISTANCES)).argmin(axis=1)
