@@ -120,7 +120,7 @@ class SplashCapture:
 
     def quads(self, records: NDArray, view: ViewData, look: SplashLook) -> Quads:
         """What is drawn of every impact, in order; a quad is two triangles, a droplet one."""
-        found = self._run(self._quads, records, view, look, 11, len(records) * 9 * 3)
+        found = self._run(self._quads, records, view, look, 11, len(records) * 33 * 3)
         found = found[found[:, 3] != 0.0].reshape(-1, 3, 11)
         bead = found[:, 0, 6] == BEAD
         quads = found[~bead].reshape(-1, 6, 11)[:, [0, 1, 2, 5]]

@@ -288,6 +288,7 @@ class Renderer:
             return
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
+        self._maps[view.key].texture.use(SHELTER_UNIT)  # other passes have used the unit
         self._splash.draw(view, look)
 
     def _draw_drops(self, view: ViewData) -> None:

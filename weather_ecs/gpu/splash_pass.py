@@ -10,7 +10,7 @@ from weather_ecs.frame import RippleData, SplashLook, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.impact_source import ImpactReader
-from weather_ecs.gpu.rain_pass import RainPass
+from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.splash_list import SplashList
 from weather_ecs.gpu.splash_texture import splash_texture
@@ -61,7 +61,7 @@ class SplashPass:
         self._lists: SplashList | None = None
         if rain.has_lists:
             small = shaders.program(SMALL)
-            small["splash_frames"] = FRAMES_UNIT
+            small["splash_frames"], small["shelter_map"] = FRAMES_UNIT, SHELTER_UNIT
             large, counted = self._splashes.program, self._counted.program
             self._lists = SplashList(ctx, shaders, small, large, counted)
         self._draws = 0

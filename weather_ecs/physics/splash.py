@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .checks import FloatArray
+from .drops import terminal_speed
 from .fall import GRAVITY
 from .rain_step import hash_unit, hash_word
 
@@ -25,6 +26,9 @@ FIRST = 0.25  # share of its radius that a crown begins with
 SMALLEST, GREATEST = 0.3, 2.5  # factors on the size, of the least of the splashes and the most
 RESPONSE = 0.2  # s: a droplet of half a millimetre takes on the air's speed
 MOST = 5  # droplets of one splash
+COMPANIONS = 6  # smaller splashes around one, at most
+PLENTY = 3.0  # so many times as many are small as are full-grown
+SCATTER = 0.8  # m that they lie off at most
 LONGEST = 0.5  # s that a droplet is seen at most
 
 
@@ -75,6 +79,25 @@ def crown_radius(
     """Radius to which a crown opens as it is drawn, m."""
     radius = spread_radius(diameter, speed) * law.size * stature(weight, seed, law)
     return law.largest * -np.expm1(-radius / law.largest)
+
+
+def companions(weight: NDArray, seed: NDArray, law: SplashLaw) -> FloatArray:
+    """How many smaller splashes a splash has around it: the small ones that it stands for."""
+    chance = hash_unit(bits(seed) ^ np.uint32(0x165667B1)).astype(np.float64)
+    return np.clip(np.floor(PLENTY * weight * law.share - 1.0 + chance), 0.0, COMPANIONS)
+
+
+def companion(seed: NDArray, k: int, law: SplashLaw) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Companion k: (n, 2) m along x and z off the hit, s later, and its own radius in m."""
+    word = hash_word(bits(seed) + np.uint32(0x9E3779B9 * (k + 11) & 0xFFFFFFFF))
+    turn = 2.0 * math.pi * hash_unit(word ^ np.uint32(0x27D4EB2F)).astype(np.float64)
+    off = SCATTER * np.sqrt(hash_unit(word ^ np.uint32(0x85EBCA6B)).astype(np.float64))
+    chance = hash_unit(word ^ np.uint32(0xC2B2AE35)).astype(np.float64)
+    later = max(LONGEST - law.duration, 0.0) * chance
+    place = np.stack([off * np.cos(turn), off * np.sin(turn)], axis=-1)
+    diameter = 0.8 + 1.4 * hash_unit(word).astype(np.float64)
+    radius = spread_radius(diameter, terminal_speed(diameter)) * law.size
+    return place, later, law.largest * -np.expm1(-radius / law.largest)
 
 
 def growth(x: NDArray) -> FloatArray:

@@ -5,8 +5,11 @@
 
 uniform sampler2D shelter_map;
 
-// A step in depth of more than this (m) between neighbours is an edge and not a slope.
+// A step in depth of more than this (m) between neighbours is an edge and not a slope; and so is one
+// of more than so many texels, but for small ones, lest rain hit a slope from a hat to shoulders.
 const float SHELTER_EDGE = 0.6;
+const float SHELTER_STEEP = 2.0;
+const float SHELTER_STEP = 0.2;  // m
 
 vec3 shelter_place(vec3 p)
 {
@@ -43,7 +46,8 @@ bool is_edge(vec4 c)
 {
     float low = min(min(c.x, c.y), min(c.z, c.w));
     float high = max(max(c.x, c.y), max(c.z, c.w));
-    return (high - low) * shelter_size.y > SHELTER_EDGE;
+    float edge = clamp(SHELTER_STEEP * shelter_size.z, SHELTER_STEP, SHELTER_EDGE);
+    return (high - low) * shelter_size.y > edge;
 }
 
 // Metres by which a place lies below the surface between four texels, as below_texel where they are

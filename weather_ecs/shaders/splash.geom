@@ -1,11 +1,13 @@
 // A splash: the film that spreads flat over the surface, the crown on it, and droplets on parabolas
-// that end where they hit again. Film and droplets are only there close by. SMALL: there is nothing
+// that end where they hit again; and smaller splashes around it on whatever is there, for the other
+// drops that its drop stands for. All but the crown are only there close by. SMALL: there is nothing
 // but the crown, and that is so small that one triangle, of twice its area, is drawn sooner than two.
+// Where what was hit has gone from under a splash there is none.
 layout(points) in;
 #ifdef SMALL
 layout(triangle_strip, max_vertices = 3) out;
 #else
-layout(triangle_strip, max_vertices = 23) out;
+layout(triangle_strip, max_vertices = 71) out;
 #endif
 #include "splash.glsl"
 #include "splash_quad.glsl"
@@ -13,23 +15,28 @@ layout(triangle_strip, max_vertices = 23) out;
 #include "turbulence.glsl"
 
 in vec3 vs_throw[];
+in float vs_more[];
 
 const float EDGE = 0.08;  // m, of a drop in height that a droplet may fall over
+const float GONE = 0.12;  // m, that a surface may have sunk under a splash; at twice that it is gone
 
-void film(vec4 form, vec3 first, vec3 second, vec4 color)
+void film(vec3 at, vec3 n, vec4 form, vec4 color)
 {
     bool wet = form.z > 0.5;
-    float pixels = form.x * camera_position.w / length(vs_at[0] - camera_position.xyz);
+    float pixels = form.x * camera_position.w / length(at - camera_position.xyz);
+    float above = dot(normalize(camera_position.xyz - at), n);
+    if (above <= 0.0) return;
     if (form.y >= (wet ? CROWN_LIFE : FILM_LIFE) || pixels < 3.0) return;
     color.a *= smoothstep(3.0, 6.0, pixels);
+    vec3 first = normalize(vec3(n.y, -n.x, 0.0));
+    vec3 second = cross(n, first);
     float turn = 40.0 * form.w;
     float reach = form.x * growth(form.y) * (wet ? 2.4 : 1.7);
     vec3 a = (first * cos(turn) + second * sin(turn)) * reach;
     vec3 b = (second * cos(turn) - first * sin(turn)) * reach;
     // The more so, the less there is to see of the crown.
-    float above = abs(dot(normalize(vs_at[0] - camera_position.xyz), vs_normal[0]));
     color.a *= 0.35 + 0.4 * smoothstep(0.5, 0.9, above);
-    quad(vs_at[0], a, b, layer_at(wet ? RING : FILM, form.y), color);
+    quad(at, a, b, layer_at(wet ? RING : FILM, form.y), color);
 }
 
 // A droplet as a streak of its way during the exposure.
@@ -57,10 +64,10 @@ void droplet(vec3 p, vec3 velocity, float size, vec4 color)
 }
 
 // A quad that stands along the normal n and turns about it towards the camera.
-void crown(vec4 form, vec3 n, vec4 color)
+void crown(vec3 at, vec3 n, vec4 form, vec4 color)
 {
     vec3 up = n;
-    vec3 ray = vs_at[0] - camera_position.xyz;
+    vec3 ray = at - camera_position.xyz;
     vec3 side = cross(ray, up);
     float across = length(side);
     if (across < 1e-4 || color.a < FAINTEST) return;
@@ -73,7 +80,7 @@ void crown(vec4 form, vec3 n, vec4 color)
     float pixel = length(ray) / camera_position.w;
     float reach = max(form.x * growth(form.y) * 1.33, pixel);
     float tall = reach * (0.8 + 0.5 * hash_unit(h ^ 0x9E3779B9u));
-    vec3 middle = vs_at[0] + up * (tall * (TALL - BELOW));
+    vec3 middle = at + up * (tall * (TALL - BELOW * lift));
     float kind = (form.z > 0.5 ? BURST : CROWN) + variant;
 #ifdef SMALL
     triangle(middle, side * reach, up * (tall * TALL), layer_at(kind, form.y), color);
@@ -82,8 +89,10 @@ void crown(vec4 form, vec3 n, vec4 color)
 #endif
 }
 
-void droplets(float seed, vec3 n, vec3 first, vec3 second, vec4 color)
+void droplets(float seed, vec3 n, vec4 color)
 {
+    vec3 first = normalize(vec3(n.y, -n.x, 0.0));
+    vec3 second = cross(n, first);
     float age = vs_throw[0].y;
     vec3 pull = splash_pull.xyz;
     // The eddies that were there at the hit have gone on with the wind since.
@@ -110,19 +119,48 @@ void droplets(float seed, vec3 n, vec3 first, vec3 second, vec4 color)
     }
 }
 
+// The smaller ones around, each on what rain meets first at its place.
+void around(vec4 form, vec4 color)
+{
+    for (int k = 0; k < COMPANIONS; ++k) {
+        if (float(k) >= vs_more[0]) break;
+        uint id;
+        vec4 off = companion(form.w, k, id);
+        float x = (vs_throw[0].y - off.z) / splash_look.z;
+        if (x < 0.0 || x > CROWN_LIFE) continue;
+        vec3 at = vs_at[0] + vec3(off.x, 0.0, off.y);
+        vec3 m = shelter_place(at);
+        if (!in_shelter_map(m)) continue;
+        vec2 part;
+        vec4 c = shelter_corners(m.xy, part);
+        float rise = below_corners(m, c, part);
+        at += rise * vec3(-shelter_fall.x, 1.0, -shelter_fall.y);
+        vec3 n = corners_normal(c, part);
+        float above = dot(normalize(camera_position.xyz - at), n);
+        lift = clamp(40.0 * above, 0.0, 1.0);
+        vec4 own = vec4(off.w, x, 0.0, hash_unit(id));
+        film(at, n, own, color);
+        crown(at, n, own, vec4(color.rgb, color.a * (1.0 - smoothstep(0.55, 0.92, abs(above)))));
+    }
+}
+
 void main()
 {
     vec4 form = vs_form[0];
     if (form.x <= 0.0) return;
     vec3 n = vs_normal[0];
+    vec3 m = shelter_place(vs_at[0]);
+    float left = in_shelter_map(m) ? 1.0 - smoothstep(GONE, 2.0 * GONE, -below_surface(m)) : 1.0;
+    lift = clamp(40.0 * dot(normalize(camera_position.xyz - vs_at[0]), n), 0.0, 1.0);
+    vec4 color = vs_color[0] * vec4(1.0, 1.0, 1.0, left);
 #ifdef SMALL
-    crown(form, n, vs_color[0]);
+    crown(vs_at[0], n, form, color);
 #else
-    vec3 first = normalize(vec3(n.y, -n.x, 0.0));
-    vec3 second = cross(n, first);
-    vec4 near = vec4(vs_color[0].rgb, vs_throw[0].z);
-    if (near.a > FAINTEST) film(form, first, second, near);
-    crown(form, n, vs_color[0]);
-    if (near.a > FAINTEST) droplets(form.w, n, first, second, near);
+    vec4 near = vec4(color.rgb, vs_throw[0].z);
+    vec4 mine = near * vec4(1.0, 1.0, 1.0, left);
+    if (mine.a > FAINTEST) film(vs_at[0], n, form, mine);
+    crown(vs_at[0], n, form, color);
+    if (mine.a > FAINTEST) droplets(form.w, n, mine);
+    if (near.a > FAINTEST && form.z < 0.5) around(form, near);
 #endif
 }
