@@ -26,6 +26,9 @@ def play_key(name: str, game: Game, shown: Shown) -> str | None:
     if name == "T":
         game.sky.next()
         return game.sky.name.capitalize()
+    if name == "N":
+        game.settings.muted = not game.settings.muted
+        return "Sound off" if game.settings.muted else "Sound on"
     if name == "M":
         shown.show_map = not shown.show_map
         return ""

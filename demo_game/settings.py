@@ -10,6 +10,7 @@ BACKENDS = ("auto", "compute", "feedback")
 
 SENSITIVITIES = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0)  # factors on LOOK_SPEED
 FIELDS_OF_VIEW = (60, 70, 80, 90, 100, 110)  # degrees, horizontal
+VOLUMES = tuple(range(0, 101, 10))  # % of the sound
 
 LOOK_SPEED = math.radians(0.11)  # radians of turn per mouse count at sensitivity 1
 
@@ -24,6 +25,8 @@ class Settings:
     invert: bool = False  # mouse up looks down
     field_of_view: float = 80.0  # degrees, horizontal
     fullscreen: bool = False
+    volume: int = 80  # % of the sound, one of VOLUMES
+    muted: bool = False
 
     @property
     def hfov(self) -> float:

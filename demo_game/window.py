@@ -17,6 +17,7 @@ from demo_game.play_keys import play_key
 from demo_game.preparing import prepare_place
 from demo_game.screen_keys import screen_click, screen_key
 from demo_game.settings import Settings
+from demo_game.sound import WalkSound
 from demo_game.ui.menu import MenuActions, MouseRest, pause_menu
 from demo_game.ui.minimap import map_place
 from demo_game.ui.overlay import Overlay, Screen
@@ -70,6 +71,7 @@ class GameWindow(pyglet.window.Window):
         place = prepare_place(seed, self._draw_preparing)
         self.switch_to()
         self.game = Game(self._gl, settings, place=place, seed=seed, preset=preset, start=start)
+        self.sound = WalkSound(self.game, settings, seed)
         self.menu = pause_menu(
             settings,
             MenuActions(
@@ -117,6 +119,7 @@ class GameWindow(pyglet.window.Window):
             return
         self.ready = False
         self._gamepads.close()
+        self.sound.close()
         if self.context is not None:
             self.switch_to()
             self.overlay.delete()
@@ -145,6 +148,7 @@ class GameWindow(pyglet.window.Window):
             self._follow_letter()
         elif self.screen_shown in (Screen.START, Screen.END):
             self.game.update(dt)
+        self.sound.update(dt, paused=self.screen_shown in (Screen.PAUSE, Screen.HELP))
         self.draw(dt)
 
     def on_draw(self) -> None:

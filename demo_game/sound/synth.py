@@ -16,6 +16,7 @@ from .thunder import Thunder
 
 GLIDE = 0.14  # s in which what is heard follows what is told
 TURBULENCE, FLUTTER = 0.10, 1.2  # of the wind's speed between its gusts, s
+MOST_STRIKES = 16  # that wait to be made
 KNEE = 0.7  # from which the loudest is bent, so that it stays below 1
 
 
@@ -42,7 +43,7 @@ class Synth:
         self._rain, self._thunder = Rain(seed + 1), Thunder(seed + 2)
         self._random = np.random.default_rng(seed + 3)
         self._target, self._now = Heard(), Heard(volume=0.0)
-        self._strikes: deque[tuple[float, float]] = deque()
+        self._strikes: deque[tuple[float, float]] = deque(maxlen=MOST_STRIKES)
         self._flutter, self._volume, self._begun = 0.0, 0.0, False
         self._held = np.zeros((CHANNELS, HOP), np.float32)
         self.samples = 0  # given so far

@@ -16,6 +16,7 @@ LEFT = (
     ("F1", "this page"),
     ("F3", "readout"),
     ("M", "map"),
+    ("N", "sound on and off"),
     ("F11", "full screen"),
     ("F12", "save a picture"),
     ("", ""),

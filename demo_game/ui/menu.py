@@ -10,6 +10,7 @@ from demo_game.settings import (
     FIELDS_OF_VIEW,
     QUALITIES,
     SENSITIVITIES,
+    VOLUMES,
     Settings,
     step,
 )
@@ -150,6 +151,7 @@ def pause_menu(settings: Settings, actions: MenuActions) -> Menu:
                 on_off,
                 lambda: "on" if settings.fullscreen else "off",
             ),
+            choice("Sound", "volume", VOLUMES, lambda: f"{settings.volume} %"),
             Item("Another letter", act=actions.again),
             Item("Help", act=actions.help),
             Item("Quit", act=actions.quit),
