@@ -20,6 +20,7 @@ from tests.cloud_fields import FIELDS as CLOUD_FIELDS
 from weather_ecs.components import (
     SNAPSHOT_COMPONENTS,
     Air,
+    Atmosphere,
     CloudShading,
     CollisionHeightmap,
     Fog,
@@ -60,6 +61,19 @@ def make(kind: type) -> object:
 CASES = [
     (Air, "temperature", [-60, 60.0, np.float32(-0.5)]),
     (Air, "humidity", [0, 1]),
+    (Atmosphere, "time", [-2208988800, 0, 1.7e9]),
+    (Atmosphere, "latitude", [-90, 90]),
+    (Atmosphere, "longitude", [-180, 180]),
+    (Atmosphere, "speed", [-1e6, 0, 1e6]),
+    (Atmosphere, "turbidity", [1, 10]),
+    (Atmosphere, "overcast", [0, 1.0]),
+    (Atmosphere, "exposure", [0, 1000]),
+    (Atmosphere, "adaptation", [0, 1]),
+    (Atmosphere, "draw", [True, np.bool_(False)]),
+    (Atmosphere, "stars", [0, 100]),
+    (Atmosphere, "disc", [0.1, 20]),
+    (Atmosphere, "halo", [0, 1]),
+    (Atmosphere, "rainbow", [0, 10]),
     (Fog, "visibility", [0, 50.0, 1e7]),
     (Fog, "color", [(0, 0, 0), np.array([1, 2, 1000])]),
     (Fog, "depth", [0, 1e5]),
@@ -168,6 +182,17 @@ CASES = [
 BAD = [
     (Air, "temperature", [-101, 100.1]),
     (Air, "humidity", [-0.1, 1.1, 80]),
+    (Atmosphere, "time", [-3e9, 4.2e9, "", "noon", "2025-13-01", "2150-01-01", "1" * 99, "٢٠٢٥"]),
+    (Atmosphere, "latitude", [-90.1, 91]),
+    (Atmosphere, "longitude", [-181, 360]),
+    (Atmosphere, "speed", [-2e6, 2e6]),
+    (Atmosphere, "turbidity", [0.9, 11]),
+    (Atmosphere, "exposure", [-1, 1001]),
+    (Atmosphere, "adaptation", [-0.1, 1.1]),
+    (Atmosphere, "draw", [0, "yes"]),
+    (Atmosphere, "stars", [-1, 101]),
+    (Atmosphere, "disc", [0, 21]),
+    (Atmosphere, "rainbow", [-1, 11]),
     (Fog, "visibility", [-1, 2e7]),
     (Fog, "depth", [-1, 2e5]),
     (Fog, "draw", [0, 1, "yes"]),
@@ -278,7 +303,7 @@ def test_good_values_are_kept_as_plain_values(kind, name, values):
         if isinstance(got, tuple):
             assert all(type(item) is float for item in got)
         else:
-            assert type(got) is type(before)
+            assert type(got) is type(before) or before is None
             assert got == (value if type(got) is not float else pytest.approx(float(value)))
 
 

@@ -199,6 +199,33 @@ class FogData:
     draw: bool = False  # over the whole picture, for games whose shaders know no fog
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class AtmosphereData:
+    """What the sky is drawn from; see `physics.sky_map`. Light is linear RGB, as it is shown."""
+
+    sun_direction: tuple[float, float, float]  # unit, to where it is seen
+    moon_direction: tuple[float, float, float]
+    star_axes: NDArray  # (3, 3): world = axes @ equatorial
+    sun_air: NDArray  # `physics.daylight.ClearSky` of the sun
+    sun_haze: NDArray
+    moon_air: NDArray  # and of the moon
+    moon_haze: NDArray
+    sun_scale: NDArray  # (3,), factor on the sun's clear sky
+    moon_scale: NDArray
+    overcast_light: NDArray  # (3,), at the zenith; a third of it at the horizon
+    night_light: NDArray  # (3,), at the zenith
+    ground_light: NDArray  # (3,)
+    shift: float  # 0 to 1, of the colours towards those of the night
+    sun_disc: NDArray  # (3,)
+    moon_disc: NDArray  # (3,)
+    faintest: float  # magnitude of the faintest star that is seen
+    stars: float  # factor on their light
+    disc: float  # factor on the width of sun and moon
+    halo: float  # 0 to 1
+    rainbow: float  # factor
+    draw: bool
+
+
 @dataclass(frozen=True, slots=True)
 class WindProfile:
     """How the wind varies in space; `FrameData.wind` is that at the reference height, now."""
@@ -323,6 +350,7 @@ class FrameData:
     # Areas whose rain has begun or ended of late, by key: spells without, s; see `physics.front`.
     fronts: Mapping[int, Spells] = field(default_factory=lambda: NO_FRONTS)
     flakes: SnowLook = field(default_factory=SnowLook)
+    atmosphere: AtmosphereData | None = None  # None where there is none, or nobody draws
     strikes: NDArray = field(default_factory=lambda: empty(STRIKE_DTYPE))
     lightning: LightningLook = field(default_factory=LightningLook)
 

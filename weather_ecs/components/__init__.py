@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from weather_ecs.components._base import Component
 from weather_ecs.components.air import Air
+from weather_ecs.components.atmosphere import Atmosphere
 from weather_ecs.components.climate import Climate
 from weather_ecs.components.cloud import Cloud
 from weather_ecs.components.cloud_model import CloudModel
@@ -33,6 +34,7 @@ SNAPSHOT_COMPONENTS: dict[str, type[Component]] = {
     kind.__name__: kind
     for kind in (
         Air,
+        Atmosphere,
         Climate,
         Cloud,
         CloudModel,
@@ -54,6 +56,7 @@ SNAPSHOT_COMPONENTS: dict[str, type[Component]] = {
 
 __all__ = [
     "Air",
+    "Atmosphere",
     "Climate",
     "Cloud",
     "CloudModel",

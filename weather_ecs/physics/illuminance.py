@@ -29,7 +29,7 @@ def sun_illuminance(altitude: float) -> float:
 
 
 def moon_illuminance(altitude: float, phase_angle: float) -> float:
-    """lx of the moon, by altitude and phase angle (0 full, 180 new) in degrees; 0 once it is down."""
+    """lx of the moon by altitude and phase angle (0 full, 180 new), degrees; 0 once it is down."""
     if altitude < -0.8:
         return 0.0
     return _at(_MOON, min(altitude, 90.0)) * moon_phase_factor(phase_angle)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from weather_ecs.systems.atmosphere import AtmosphereSystem
 from weather_ecs.systems.climate import ClimateSystem
 from weather_ecs.systems.cloud_light import CloudLightSystem
 from weather_ecs.systems.cloud_rain import CloudRainSystem
@@ -28,6 +29,7 @@ class Row(NamedTuple):
 
 SCHEDULE: tuple[Row, ...] = (
     Row(WindSystem, 100, "step", "first: whatever drifts needs the wind of this step"),
+    Row(AtmosphereSystem, 105, "step", "by the clock alone: the time of the sky goes on"),
     Row(ClimateSystem, 110, "step", "before the clouds, which come in by the state of the skies"),
     Row(CloudSystem, 150, "step", "after wind and climate: they say what comes in, and where"),
     Row(RainAreaSystem, 200, "step", "after the wind, which carries the areas"),
@@ -47,6 +49,7 @@ def scheduled(phase: str) -> list[System]:
 
 __all__ = [
     "SCHEDULE",
+    "AtmosphereSystem",
     "ClimateSystem",
     "CloudLightSystem",
     "CloudRainSystem",

@@ -31,7 +31,9 @@ class CloudLightSystem:
 
 
 def sun_direction(state: WeatherState) -> Vector:
-    """Unit vector towards the sun, wherever it stands."""
+    """Unit vector towards the sun, wherever it stands; of an atmosphere as of the last frame."""
+    if state.light_direction is not None:
+        return state.light_direction
     for _, sun in alive(Sun, state.uids):
         return sun.direction
     return SkyLight().sun_direction

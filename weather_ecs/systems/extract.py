@@ -45,6 +45,7 @@ from weather_ecs.frame import (
     empty,
 )
 from weather_ecs.systems.air import air_data, fog_data
+from weather_ecs.systems.atmosphere import Daylight
 from weather_ecs.systems.cloud_list import CloudList
 from weather_ecs.systems.gauge import GaugeList
 from weather_ecs.systems.lightning import settings_of
@@ -101,6 +102,8 @@ class ExtractSystem:
         self._wind, self._profile = (0.0, 0.0, 0.0), CALM
         self._parts: tuple[NDArray, SkyLight, DropLook]
         self._air, self._fog = AirData(), FogData()
+        self._daylight = Daylight()
+        self._light: SkyLight | None = None  # of an atmosphere
         self._flakes = SnowLook()
         self._splash: SplashLook | None = None
         self._occluders = OccluderList()
@@ -139,6 +142,8 @@ class ExtractSystem:
             self._rebuild(state)
             self._lists, self._revisions = lists, revisions
             self._frame = None
+        if self._daylight.update(state) is not self._light:
+            self._relight(state)
         occluders = self._ripples.with_faces(self._occluders.collect(self._layers))
         gauges = self._gauges.collect()
         frame, time = self._frame, state.clock.time
@@ -189,6 +194,7 @@ class ExtractSystem:
             air=self._air,
             fog=self._fog,
             profile=self._profile,
+            atmosphere=self._daylight.data,
             strikes=self._strikes.rows(state, self._brightness),
             lightning=self._lightning,
             fronts=dry_spells(self._changing, state.fronts, clock.remainder),
@@ -201,6 +207,14 @@ class ExtractSystem:
         if self._drifting:
             motion = winds_at(winds, seed, state.next_time)
             self._velocity = np.array([drift_velocity(area, *motion) for area in self._drifting])
+
+    def _relight(self, state: WeatherState) -> None:
+        """The atmosphere has another light, or there is one no more."""
+        self._light = light = self._daylight.light
+        state.light_direction = None if light is None else light.sun_direction
+        self._parts = (self._parts[0], light or _sky(state), self._parts[2])
+        self._fog = fog_data(state, self._parts[1])
+        self._frame = None
 
     def _rebuild(self, state: WeatherState) -> None:
         winds = alive(Wind, state.uids)
@@ -218,7 +232,7 @@ class ExtractSystem:
             (lamp.position, lamp.color, lamp.reach) for _, lamp in alive(PointLight, state.uids)
         ]
         lights = _frozen(lamps, LIGHT_DTYPE) if lamps else _NO_LIGHTS
-        self._parts = (lights, _sky(state), _look(state))
+        self._parts = (lights, self._light or _sky(state), _look(state))
         self._air, self._fog = air_data(state), fog_data(state, self._parts[1])
         own = settings_of(state)
         self._lightning, self._brightness = look_of(own), own.brightness

@@ -28,6 +28,7 @@ class WeatherState:
         "drawn",
         "events",
         "fronts",
+        "light_direction",
         "models",
         "profile",
         "rng",
@@ -57,6 +58,7 @@ class WeatherState:
         self.models = models or ModelBook()
         self.cloud_shapes = ShapeLibrary()
         self.events: list[tuple[str, tuple[Any, ...]]] = []  # names and values, to be told of
+        self.light_direction: tuple[float, float, float] | None = None  # of an atmosphere
         self.drawn = False  # somebody draws this weather, and needs what only pictures show
 
     @property

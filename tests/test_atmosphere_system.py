@@ -1,0 +1,158 @@
+"""The atmosphere as a component: its time, its light, snapshots, all without OpenGL."""
+
+from __future__ import annotations
+
+import math
+
+import esper
+import pytest
+
+from weather_ecs import Weather
+from weather_ecs.components import Atmosphere, Climate, Fog, Sun
+from weather_ecs.errors import InvalidValueError
+from weather_ecs.frame import FrameData, SkyLight
+
+
+def made(**fields: object) -> tuple[Weather, Atmosphere]:
+    weather, air = Weather(), Atmosphere(**fields)  # type: ignore[arg-type]
+    esper.create_entity(air)
+    esper.process(0.05)
+    return weather, air
+
+
+def frame(weather: Weather) -> FrameData:
+    return weather._frame()
+
+
+@pytest.fixture(autouse=True)
+def world():
+    esper.switch_world("sky")
+    yield
+    esper.switch_world("default")
+    esper.delete_world("sky")
+
+
+def test_time_is_text_or_seconds_and_goes_with_the_clock() -> None:
+    assert Atmosphere("1970-01-02").time == 86400.0
+    assert Atmosphere("1970-01-01T01:00:00+01:00").time == 0.0
+    weather, air = made(time=0.0, speed=60.0)
+    for _ in range(100):
+        esper.process(0.05)
+    assert air.time == pytest.approx(101 * 0.05 * 60.0)
+    weather.paused = True
+    before = air.time
+    esper.process(5.0)
+    assert air.time == before
+    weather.close()
+
+
+def test_it_stops_with_the_years_it_is_good_for() -> None:
+    weather, air = made(time="2099-12-31T23:59:00Z", speed=1e6)
+    esper.process(10.0)
+    assert math.isfinite(weather.sample((0, 0, 0)).light)
+    air.speed = -1e6
+    for _ in range(3):
+        esper.process(10.0)
+    assert air.time > 0.0
+    air.time = -2208988800.0
+    esper.process(10.0)
+    assert air.time == -2208988800.0
+    weather.close()
+
+
+def test_it_takes_the_place_of_the_sun_and_gives_it_back() -> None:
+    weather, _air = made()
+    game = Sun(color=(9.0, 9.0, 9.0))
+    esper.create_entity(game)
+    noon = frame(weather).sky
+    assert noon.sun_color[0] < 2.0
+    assert noon.sun_direction[1] == pytest.approx(math.sin(math.radians(68.4)), abs=0.01)
+    assert noon.sun_direction[2] > 0.3  # in the south
+    esper.delete_entity(esper.get_component(Atmosphere)[0][0], immediate=True)
+    assert frame(weather).sky.sun_color == (9.0, 9.0, 9.0)
+    weather.close()
+
+
+def test_light_of_day_twilight_and_night() -> None:
+    weather, air = made()
+    lights = []
+    for time in ("12:00", "19:00", "19:52", "20:30", "23:00"):
+        air.time = f"2025-06-21T{time}:00Z"
+        lights.append(weather.sample((0, 0, 0)).light)
+    assert lights == sorted(lights, reverse=True)
+    assert 1.0 < lights[0] < 2.0
+    assert 0.01 < lights[-1] < 0.2
+    weather.close()
+
+
+def test_fog_takes_its_colour() -> None:
+    weather, air = made()
+    esper.create_entity(Fog(100.0))
+    noon = frame(weather).fog.color
+    air.time = "2025-06-21T23:30:00Z"
+    night = frame(weather).fog.color
+    assert max(night) < 0.2 * min(noon)
+    weather.close()
+
+
+def test_polar_day_and_night() -> None:
+    weather, air = made(latitude=85.0)
+    for hour in range(0, 24, 6):
+        air.time = f"2025-06-21T{hour:02}:00:00Z"
+        assert frame(weather).sky.sun_color[0] > 0.5
+        air.time = f"2025-12-21T{hour:02}:00:00Z"
+        assert max(frame(weather).sky.zenith_color) < 0.15
+    weather.close()
+
+
+def test_the_full_moon_casts_shadows_at_night() -> None:
+    weather, _ = made(time="2024-01-25T23:30:00Z", speed=0.0)
+    sky = frame(weather).sky
+    assert sky.sun_direction[1] > 0.7
+    assert 0.005 < sky.sun_color[1] < 0.3
+    weather.close()
+
+
+def test_the_climate_covers_the_sky() -> None:
+    weather, air = made()
+    clear = frame(weather).sky
+    esper.create_entity(Climate(1.0, 1.0))
+    esper.process(0.05)
+    storm = frame(weather).sky
+    assert sum(storm.sun_color) < 0.3 * sum(clear.sun_color)
+    air.overcast = 0.0
+    assert frame(weather).sky.sun_color == clear.sun_color
+    weather.close()
+
+
+def test_light_is_kept_while_nothing_moves() -> None:
+    weather, air = made(speed=0.0)
+    first = frame(weather).sky
+    esper.process(1.0)
+    assert frame(weather).sky is first
+    air.turbidity = 5.0
+    assert frame(weather).sky is not first
+    assert isinstance(first, SkyLight)
+    weather.close()
+
+
+def test_snapshot_half_way_through_a_sunset() -> None:
+    weather, _ = made(time="2025-06-21T19:30:00Z", speed=120.0)
+    for _ in range(30):
+        esper.process(0.033)
+    taken = weather.snapshot()
+    after = []
+    for _ in range(2):
+        weather.restore(taken)
+        for _ in range(40):
+            esper.process(0.033)
+        after.append((weather.snapshot(), weather.sample((0, 0, 0)), frame(weather).sky))
+    assert after[0][0] == after[1][0]
+    assert after[0][1:] == after[1][1:]
+    weather.close()
+
+
+def test_bad_times_name_the_field() -> None:
+    for bad in ("yesterday", "2025-06-21T25:00:00Z", math.nan, None, "1899-12-31", b"2025-01-01"):
+        with pytest.raises(InvalidValueError, match=r"Atmosphere\.time"):
+            Atmosphere(time=bad)  # type: ignore[arg-type]

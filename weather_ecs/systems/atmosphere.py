@@ -1,0 +1,184 @@
+"""`AtmosphereSystem` moves the time of the sky on; `Daylight` says what light there is."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import esper
+import numpy as np
+
+from weather_ecs.clock import STEP
+from weather_ecs.components import Atmosphere, Cloud
+from weather_ecs.components._base import set_unchecked
+from weather_ecs.frame import AtmosphereData, SkyLight
+from weather_ecs.physics import astronomy
+from weather_ecs.physics.daylight import LUMINANCE, NIGHT_LUX, SUN_LUX, Scene, clear_sky, scene
+from weather_ecs.physics.illuminance import moon_phase_factor
+from weather_ecs.systems.climate import oldest_state
+from weather_ecs.systems.queries import alive
+from weather_ecs.systems.state import WeatherState
+
+FIRST, LAST = astronomy.FIRST, astronomy.LAST - 1.0
+QUANTUM = 10.0  # s of the sky for which its light stands still: the sun moves by 0.04 degrees
+HALO = "cirrostratus"  # the model whose clouds show one
+
+
+class AtmosphereSystem:
+    """Carries the time of every atmosphere on by a fixed step; it stops with the years."""
+
+    def run(self, state: WeatherState) -> None:
+        """One fixed step."""
+        for _, air in esper.get_component(Atmosphere):
+            if air.speed:
+                set_unchecked(air, "time", _moved(air, STEP))
+
+
+def _moved(air: Atmosphere, seconds: float) -> float:
+    return min(max(float(air.time) + air.speed * seconds, FIRST), LAST)
+
+
+class _Heaven(NamedTuple):
+    """Where everything stands, and how bright it is."""
+
+    sun: astronomy.Vector
+    moon: astronomy.Moon
+    light: Scene
+
+
+class Daylight:
+    """The light of the oldest atmosphere; made again when the sun has moved or a field changed."""
+
+    def __init__(self) -> None:
+        self._key: tuple[object, ...] = ()
+        self.light: SkyLight | None = None
+        self.data: AtmosphereData | None = None
+
+    def update(self, state: WeatherState) -> SkyLight | None:
+        """Bring `light` and `data` up to date; None where there is no atmosphere.
+
+        The light is the same object for as long as both are the same.
+        """
+        for _, air in alive(Atmosphere, state.uids):
+            self._update(air, state)
+            return self.light
+        self._key, self.light, self.data = (), None, None
+        return None
+
+    def _update(self, air: Atmosphere, state: WeatherState) -> None:
+        time = _moved(air, state.clock.remainder)
+        time = min(max(math.floor(time / QUANTUM + 0.5) * QUANTUM, FIRST), LAST)
+        overcast = air.overcast
+        if overcast is None:
+            overcast = covered(oldest_state(state) or 0.0)
+        halo = air.halo if air.halo is not None or not state.drawn else _cirrostratus(state)
+        look = (air.latitude, air.longitude, air.turbidity, air.exposure, air.adaptation)
+        shown = (air.draw, air.stars, air.disc, air.rainbow, halo, state.drawn)
+        key = (time, overcast, look, shown)
+        if key == self._key:
+            return
+        self._key = key
+        heaven = _heaven(air, time, overcast)
+        self.light = _light(heaven)
+        self.data = _data(air, time, overcast, halo or 0.0, heaven) if state.drawn else None
+
+
+def covered(state: float) -> float:
+    """Share of the sky that its haze covers in a state of the climate, besides its clouds."""
+    return 0.85 * state**1.5
+
+
+def _cirrostratus(state: WeatherState) -> float:
+    """How much of a halo there is: all where a fifth of a layer is cirrostratus."""
+    shares = [0.0]
+    for layer in state.clouds.layers.values():
+        array = layer.array
+        kinds = [k for k, kind in enumerate(array.kinds) if kind.model == HALO]
+        if kinds and len(array):
+            shares.append(float(np.isin(array.kind, kinds).mean()))
+    if any(cloud.model == HALO for _, cloud in alive(Cloud, state.uids)):
+        shares.append(1.0)
+    return min(5.0 * max(shares), 1.0)
+
+
+def _heaven(air: Atmosphere, time: float, overcast: float) -> _Heaven:
+    sun = astronomy.sun_direction(time, air.latitude, air.longitude)
+    moon = astronomy.moon_at(time, air.latitude, air.longitude)
+    light = scene(
+        clear_sky(_altitude(sun), air.turbidity),
+        sun[1],
+        clear_sky(_altitude(moon.direction), air.turbidity),
+        moon.direction[1],
+        moon.phase_angle,
+        overcast=overcast,
+        exposure=air.exposure,
+        adaptation=air.adaptation,
+    )
+    return _Heaven(sun, moon, light)
+
+
+def _altitude(direction: astronomy.Vector) -> float:
+    """Of what is seen there, degrees: the air lifts it."""
+    altitude = astronomy.altitude_azimuth(direction)[0]
+    return min(altitude + astronomy.refraction(altitude), 90.0)
+
+
+def _light(heaven: _Heaven) -> SkyLight:
+    """The brighter of sun and moon is the light that casts shadows."""
+    light = heaven.light
+    day = float(light.sun_color @ LUMINANCE) >= float(light.moon_color @ LUMINANCE)
+    direction, color = heaven.sun, light.sun_color
+    if not day:
+        direction, color = heaven.moon.direction, light.moon_color
+    return SkyLight(
+        astronomy.refracted(direction),
+        *(_rgb(c) for c in (color, light.zenith, light.horizon, light.ground)),
+    )
+
+
+def _rgb(color: np.ndarray) -> tuple[float, float, float]:
+    r, g, b = (min(max(value, 0.0), 1000.0) for value in color.tolist())
+    return r, g, b
+
+
+def _data(
+    air: Atmosphere, time: float, overcast: float, halo: float, heaven: _Heaven
+) -> AtmosphereData:
+    sun, moon = heaven.sun, heaven.moon
+    light = heaven.light
+    suns = clear_sky(_altitude(sun), air.turbidity)
+    moons = clear_sky(_altitude(moon.direction), air.turbidity)
+    moonlight = moon_phase_factor(moon.phase_angle)
+    dusk = SUN_LUX * float(suns.diffuse @ LUMINANCE)
+    # The faintest star there is to see: 6.4 in the night, two magnitudes less for ten times the
+    # light of twilight, and 4.5 under a full moon high up (Schaefer 1990).
+    faintest = 6.4 - 1.95 * math.log10(1.0 + dusk / NIGHT_LUX)
+    faintest -= 1.9 * moonlight * max(moon.direction[1], 0.0) ** 0.5
+    return AtmosphereData(
+        sun_direction=astronomy.refracted(sun),
+        moon_direction=astronomy.refracted(moon.direction),
+        star_axes=astronomy.celestial_axes(time, air.latitude, air.longitude),
+        sun_air=suns.air,
+        sun_haze=suns.haze,
+        moon_air=moons.air,
+        moon_haze=moons.haze,
+        sun_scale=light.sun_scale,
+        moon_scale=light.moon_scale,
+        overcast_light=light.overcast,
+        night_light=light.night,
+        ground_light=light.ground,
+        shift=light.shift,
+        sun_disc=_disc(suns.sun, 30.0 * min(light.exposure, 30.0), overcast),
+        moon_disc=_disc(moons.sun, 0.36 * min(max(light.exposure, 0.3), 4.0), overcast),
+        faintest=faintest - 6.0 * overcast,
+        stars=air.stars,
+        disc=air.disc,
+        halo=halo * (1.0 - overcast),
+        rainbow=air.rainbow * (1.0 - overcast),
+        draw=air.draw,
+    )
+
+
+def _disc(through: np.ndarray, brightness: float, overcast: float) -> np.ndarray:
+    """Light of a disc seen through the air and what covers the sky."""
+    return through * (brightness * (1.0 - overcast) ** 2)
