@@ -93,6 +93,7 @@ def test_nearer_billboards_hide_farther_ones_and_nearer_clouds_farther_clouds(
                 {"position": (0.0, 2.0, -700.0 if near_dark else -1100.0), "shape": 0},
                 {"position": (0.0, 2.0, -1100.0 if near_dark else -700.0), "shape": 1},
             )
+            rows["key"] += 2 * near_dark  # other clouds, or they would change places slowly
             frame = sky_frame(rows, dark, bright, sky=sky, cloud_look=look)
             for _ in range(3):
                 picture = stage.draw(frame)
@@ -322,3 +323,27 @@ def test_in_a_cloud_the_view_is_white_and_one_s_own_wings_are_free(stage: CloudS
     plain = sky_frame(frame.clouds, data, cloud_look=CloudLook(plain=True))
     seen = stage.cover(stage.draw(plain, position=(0.0, 1.0, 20.0)))
     assert seen.std() > 0.05
+
+
+def test_two_clouds_that_change_places_do_so_unseen(stage: CloudStage) -> None:
+    sky = SkyLight(sun_direction=(0.0, 0.0, 1.0), sun_color=(1.0, 1.0, 1.0))
+    look = CloudLook(plain=True, ambient=0.1)
+    ahead = ((0.0, 0.0, 200.0),)  # of the centre, so that all of it faces the sun
+    dark = shape(1, ahead, (60.0, 60.0, 1.0), 1.0, 5, width=160.0)
+    bright = shape(2, ahead, (60.0, 60.0, 1.0), 0.0, 5, width=160.0)
+    for on in (True, False):
+        stage.passes.impostors_on = on
+        pictures = []
+        for step in range(140):
+            way = np.clip((step - 40) * 0.5, -10.0, 10.0)
+            rows = clouds(
+                {"position": (0.0, 30.0, -900.0 - way), "shape": 0},
+                {"position": (0.0, 30.0, -900.0 + way), "shape": 1},
+            )
+            rows["key"] += 2 * on
+            frame = sky_frame(rows, dark, bright, sky=sky, cloud_look=look)
+            pictures.append(stage.draw(frame, dt=1 / 60))
+        whole = np.abs(pictures[-1] - pictures[20]).max()
+        steps = [np.abs(b - a).max() for a, b in zip(pictures[20:], pictures[21:], strict=False)]
+        assert whole > 0.3
+        assert max(steps) < 0.15 * whole

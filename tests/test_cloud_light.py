@@ -22,7 +22,7 @@ from tests.cloud_stage import (
     view_of,
 )
 from weather_ecs.frame import CloudLook, FogData, FrameData
-from weather_ecs.gpu.cloud_pass import UNITS
+from weather_ecs.gpu.cloud_programs import UNITS
 from weather_ecs.gpu.cloud_scene import surround_of
 from weather_ecs.gpu.shader_loader import ProgramKey
 from weather_ecs.gpu.view_block import encode

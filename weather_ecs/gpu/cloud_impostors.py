@@ -200,6 +200,7 @@ class Impostors:
         kept["quad"][index] = (far * (mx * right + my * up), far * hx * right, far * hy * up)
         kept["way"][index] = way
         kept["pixels"][index], kept["need"][index] = scene.pixels[index], need
+        kept["version"][index], kept["shape"][index] = shape.versions, shape.data.key
         kept["stamp"][index] = self._stamp
         kept["state"][index] = _state(scene.clouds[index : index + 1])[0]
         return tile, matrix.astype(np.float32)

@@ -10,11 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.frame import ViewData
-from weather_ecs.gpu.blocks import BlockBuffer
-from weather_ecs.gpu.cloud_blocks import CLOUD_VIEW
-from weather_ecs.gpu.cloud_images import hulls, image_array
 from weather_ecs.gpu.cloud_impostors import Impostors, Plan
 from weather_ecs.gpu.cloud_inside import CloudInside
+from weather_ecs.gpu.cloud_order import CloudOrder
+from weather_ecs.gpu.cloud_programs import (
+    BILLBOARDS,
+    QUADS,
+    SOFT,
+    UNITS,
+    CloudPrograms,
+    camera_matrix,
+)
 from weather_ecs.gpu.cloud_rays import CloudRays
 from weather_ecs.gpu.cloud_scene import CloudScene, haze_of, rows_of, scene_of, surround_of
 from weather_ecs.gpu.cloud_shadow_pass import CloudShadowPass
@@ -22,24 +28,8 @@ from weather_ecs.gpu.cloud_store import CloudStore
 from weather_ecs.gpu.cloud_stream import CloudStream
 from weather_ecs.gpu.row_texture import RowTexture
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
-from weather_ecs.physics.cloud_images import CLOUD_IMAGES
 from weather_ecs.physics.cloud_light import Surround
 
-IMAGES = ("IMAGES", len(CLOUD_IMAGES))
-BILLBOARDS = ProgramKey(vertex="cloud.vert", fragment="cloud.frag", defines=(IMAGES,))
-SOFT = ProgramKey(vertex="cloud.vert", fragment="cloud.frag", defines=(IMAGES, "SOFT"))
-QUADS = ProgramKey(vertex="cloud_quad.vert", fragment="cloud_quad.frag")
-# Units of the samplers; the same in all programs.
-UNITS = {
-    "cloud_images": 0,
-    "cloud_stream": 1,
-    "cloud_rows": 2,
-    "cloud_billboards": 3,
-    "cloud_seeds": 4,
-    "cloud_atlas": 5,
-    "cloud_quads": 6,
-    "scene_depth": 7,
-}
 SOFT_HEIGHT = 400.0  # m over the ground, below which billboards are soft where they meet the scene
 SOFT_REACH = 1500.0  # m, as far as they are
 STILL = 1.0 / 60.0  # s, that a draw counts for at least: a paused sky still takes over its light
@@ -65,28 +55,20 @@ class CloudPass:
         self._ctx, self._shaders = ctx, shaders
         self._store: CloudStore | None = None  # made with the first clouds
         self._observers: dict[int, Impostors] = {}
+        self._orders: dict[int, CloudOrder] = {}
         self.stats = {"clouds_drawn": 0, "impostors_refreshed": 0, "cloud_billboards": 0}
         self.shadows = CloudShadowPass(ctx, shaders, UNITS)
         self.impostors_on = True  # False: billboards alone; for tests and comparisons
 
     def _make(self) -> CloudStore:
-        ctx = self._ctx
+        ctx, shaders = self._ctx, self._shaders
         self._store = CloudStore(ctx)
-        self._images = image_array(ctx)
+        self._programs = CloudPrograms(ctx, shaders)
         self._stream = CloudStream(ctx)
         self._rows = RowTexture(ctx, 6)
         self._quads = RowTexture(ctx, 8)
-        self._block = BlockBuffer(ctx, CLOUD_VIEW)
-        self._programs = {key: self._shaders.program(key) for key in (BILLBOARDS, SOFT, QUADS)}
-        self._arrays = {key: ctx.vertex_array(p, []) for key, p in self._programs.items()}
-        for program in self._programs.values():
-            for name, unit in UNITS.items():
-                if name in program:
-                    program[name] = unit
-            if "cloud_hulls" in program:
-                program["cloud_hulls"].write(hulls().tobytes())
-        self._rays = CloudRays(ctx, self._shaders, UNITS)
-        self._inside = CloudInside(ctx, self._shaders)
+        self._rays = CloudRays(ctx, shaders, UNITS)
+        self._inside = CloudInside(ctx, shaders)
         return self._store
 
     @property
@@ -118,28 +100,23 @@ class CloudPass:
         store.update(view.frame.cloud_shapes, dt)
         scene = self._scene = scene_of(view, store, height)
         light = surround_of(view)
-        self.shadows.update(view, scene, store, self._images)
+        self.shadows.update(view, scene, store, self._programs.images)
         impostors = self._impostors(view.key, settings)
         impostors.follow(scene, _numbers(view, light), dt)
-        plan = self._plan(scene, impostors, settings)
-        self._largest = settings.cloud_tile
-        haze = haze_of(view, light, scene.center)
+        plan = self._plan_now = self._plan(scene, impostors, settings)
+        self._haze = haze_of(view, light, scene.center)
+        self._arrange(view.key, scene, plan, dt)
         taken = np.array([index for index, _ in plan.take], np.intp)
-        bills = np.concatenate([plan.real, taken])
-        fresh = np.array([s.fresh for s in store.shapes], np.float32)[scene.shapes[bills]]
-        fresh[len(plan.real) :] = 1.0  # what an impostor shows anew comes in by its own fading
-        self._begins = self._stream.fill(scene, store, bills)
-        self._rows.write(rows_of(scene, bills, fresh, haze[bills]))
-        self._plan_now, self._haze = plan, haze
+        self._fill(scene, store, taken)
         self._is_inside = self._inside.update(view, scene, store, light)
-        self._fill_block(view, light)
-        self._use_textures(impostors)
-        refreshed = self._take(scene, impostors, plan)
+        self._programs.light(view, light)
+        self._use_textures(store, impostors)
+        refreshed = self._take(scene, store, impostors, plan, settings.cloud_tile)
         self._stream.forget_unused()
         self.stats = {
             "clouds_drawn": len(scene.order),
             "impostors_refreshed": refreshed,
-            "cloud_billboards": int(self._begins[len(plan.real)]),
+            "cloud_billboards": int(self._begins[len(self._real)]),
         }
 
     def _impostors(self, key: int, settings: CloudSettings) -> Impostors:
@@ -163,108 +140,104 @@ class CloudPass:
             settings.cloud_billboards, settings.cloud_impostors, settings.cloud_tile,
         )  # fmt: skip
 
-    def _take(self, scene: CloudScene, impostors: Impostors, plan: Plan) -> int:
-        program = self._programs[BILLBOARDS]
-        program["cloud_hazed"] = 0.0
-        store, first = self._store, len(plan.real)
-        assert store is not None
+    def _arrange(self, observer: int, scene: CloudScene, plan: Plan, dt: float) -> None:
+        """What is drawn in which order: clouds, shares of their opacity, and rows of billboards."""
+        order = self._orders.setdefault(observer, CloudOrder())
+        drawn, shares = order.update(scene, dt)
+        is_real = np.zeros(len(scene.clouds), bool)
+        is_real[plan.real] = True
+        self._drawn, self._shares, self._by_billboards = drawn, shares, is_real[drawn]
+        self._real = drawn[self._by_billboards]  # a row each, in the order of drawing
+
+    def _fill(self, scene: CloudScene, store: CloudStore, taken: NDArray[np.intp]) -> None:
+        """Stream and rows of what is drawn with billboards, and of what a picture is taken of."""
+        bills = np.concatenate([self._real, taken])
+        fresh = np.array([s.fresh for s in store.shapes], np.float32)[scene.shapes[bills]]
+        fresh[len(self._real) :] = 1.0  # what an impostor shows anew comes in by its own fading
+        self._begins = self._stream.fill(scene, store, bills)
+        rows = rows_of(scene, bills, fresh, self._haze[bills])
+        # Many billboards over each other: of each less than of the whole.
+        rows[: len(self._real), 0, 3] *= self._shares[self._by_billboards] ** 2
+        self._rows.write(rows)
+
+    def _take(
+        self, scene: CloudScene, store: CloudStore, impostors: Impostors, plan: Plan, largest: int
+    ) -> int:
+        programs = self._programs
+        programs.haze(BILLBOARDS, 0.0)
         self._ctx.enable_only(moderngl.BLEND)
         self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
         refreshed = 0
-        for row, (index, _) in enumerate(plan.take, first):
+        for row, (index, _) in enumerate(plan.take, len(self._real)):
             shape = store.shapes[int(scene.shapes[index])]
-            placed = impostors.place(scene, shape, index, self._largest)
+            placed = impostors.place(scene, shape, index, largest)
             if placed is None:
                 plan.lost += 1
                 continue
             tile, matrix = placed
-            impostors.kept["version"][index] = shape.versions
-            impostors.kept["shape"][index] = shape.data.key
             impostors.atlas.begin(tile)
-            program["cloud_matrix"].write(matrix.T.tobytes())
-            self._render(BILLBOARDS, row, row + 1)
+            programs.aim(BILLBOARDS, matrix.T.tobytes())
+            self._render(BILLBOARDS, row)
             refreshed += 1
-        program["cloud_hazed"] = 1.0
+        programs.haze(BILLBOARDS, 1.0)
         return refreshed
 
-    def _render(self, key: ProgramKey, first: int, last: int) -> None:
-        """Draw the billboards of the rows from `first` to before `last`."""
-        begin, end = int(self._begins[first]), int(self._begins[last])
-        if end > begin:
-            self._programs[key]["cloud_first"] = begin
-            self._arrays[key].render(moderngl.TRIANGLE_STRIP, vertices=8, instances=end - begin)
+    def _render(self, key: ProgramKey, row: int) -> None:
+        """Draw the billboards of a row."""
+        self._programs.billboards(key, int(self._begins[row]), int(self._begins[row + 1]))
 
     def meets_scene(self, view: ViewData) -> bool:
         """Whether the last update has left billboards that may meet the scene."""
-        scene, real = self._scene, self._plan_now.real
+        scene, real = self._scene, self._real
         near = scene.away[real] - scene.reach[real] < SOFT_REACH
         height = scene.center[real, 1] + scene.base[real] + view.position[1]
         low = height < view.frame.profile.ground + SOFT_HEIGHT * view.frame.cloud_look.softness
         return bool((near & low).any())
 
-    def draw(self, view: ViewData, depth: moderngl.Texture | None) -> None:
+    def draw(self, view: ViewData, depth: moderngl.Texture | None, origin: tuple[int, int]) -> None:
         """Draw the visible clouds. Blending, the depth test and no depth writes are the caller's.
 
-        depth: the scene's, where billboards may meet it.
+        depth: the scene's, where billboards may meet it; origin: the viewport's, pixels.
         """
-        scene, plan = self._scene, self._plan_now
+        programs = self._programs
+        programs.set_origin(*origin)
         self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-        rotation = np.eye(4)
-        rotation[:3, :3] = view.view[:3, :3]
-        matrix = (view.projection @ rotation).astype(np.float32).T.tobytes()
+        matrix = camera_matrix(view)
         key = BILLBOARDS
         if depth is not None:
             key = SOFT
             depth.use(UNITS["scene_depth"])
-            self._programs[SOFT]["cloud_hazed"] = 1.0
-        for used in (key, QUADS):
-            self._programs[used]["cloud_matrix"].write(matrix)
-        rows = np.full(len(scene.clouds), -1)
-        rows[plan.real] = np.arange(len(plan.real))
+            programs.haze(SOFT, 1.0)
+        programs.aim(key, matrix)
+        programs.aim(QUADS, matrix)
         impostors = self._observers[view.key]
-        has = impostors.kept["tile"][:, 2] > 0
-        order = scene.order[(rows[scene.order] >= 0) | has[scene.order]]
-        pictures = order[rows[order] < 0]
-        if len(pictures):
-            self._quads.write(impostors.quads(scene, pictures, self._haze[pictures]))
+        has = impostors.kept["tile"][self._drawn, 2] > 0
+        kinds = self._by_billboards[self._by_billboards | has]
+        pictures = has & ~self._by_billboards
+        which = self._drawn[pictures]
+        if len(which):
+            quads = impostors.quads(self._scene, which, self._haze[which])
+            quads[:, 0, 3] *= self._shares[pictures]
+            self._quads.write(quads)
             self._quads.texture.use(UNITS["cloud_quads"])
-        done = 0
-        for billboards, group in groupby(rows[order].tolist(), key=lambda row: row >= 0):
-            run = list(group)
+        row = quad = 0
+        for billboards, group in groupby(kinds.tolist()):
+            count = len(list(group))
             if billboards:
-                for row in run:
-                    self._render(key, row, row + 1)
+                for each in range(row, row + count):
+                    self._render(key, each)
+                row += count
             else:
-                self._programs[QUADS]["cloud_first"] = done
-                self._arrays[QUADS].render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(run))
-                done += len(run)
+                programs.quads(quad, count)
+                quad += count
         if view.frame.cloud_look.rays:
-            self._rays.draw(scene, self._store, plan.real, matrix, self._rows)
+            self._rays.draw(self._scene, self._store, self._real, matrix, self._rows)
         if self._is_inside:
             self._inside.draw(view.projection)
         self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
 
-    def _fill_block(self, view: ViewData, light: Surround) -> None:
-        data, look = self._block.data, view.frame.cloud_look
-        data["cloud_sun"][:3], data["cloud_sun_color"][:3] = light.direction, light.sun
-        data["cloud_above"][:3], data["cloud_below"][:3] = light.above, light.below
-        data["cloud_ambient"][:3] = look.ambient * light.plain
-        data["cloud_look"] = (look.silver, look.base, look.ambient, float(look.plain))
-        data["cloud_depth"][:2] = view.projection[2, 2], view.projection[2, 3]
-        self._softness = look.softness
-        self._block.upload()
-        self._block.bind()
-
-    def set_origin(self, x: int, y: int) -> None:
-        """Lower left corner of the viewport that `draw` draws to, pixels."""
-        self._block.data["cloud_origin"] = (x, y, max(self._softness, 1e-3), 0.0)
-        self._block.upload()
-        self._block.bind()
-
-    def _use_textures(self, impostors: Impostors) -> None:
-        store = self._store
-        assert store is not None
-        self._images.use(UNITS["cloud_images"])
+    def _use_textures(self, store: CloudStore, impostors: Impostors) -> None:
+        self._programs.images.use(UNITS["cloud_images"])
         self._stream.texture.use(UNITS["cloud_stream"])
         self._rows.texture.use(UNITS["cloud_rows"])
         store.billboards.texture.use(UNITS["cloud_billboards"])
@@ -274,6 +247,7 @@ class CloudPass:
     def forget(self, observer: int) -> None:
         """Give back what belongs to an observer who is gone."""
         self.shadows.forget(observer)
+        self._orders.pop(observer, None)
         gone = self._observers.pop(observer, None)
         if gone is not None:
             gone.release()
@@ -286,13 +260,10 @@ class CloudPass:
         self._observers.clear()
         if self._store is None:
             return
-        self._inside.release()
-        self._rays.release()
-        for array in self._arrays.values():
-            array.release()
-        self._block.release()
-        for thing in (self._quads, self._rows, self._stream, self._images, self._store):
+        for thing in (self._inside, self._rays, self._quads, self._rows, self._stream):
             thing.release()
+        self._programs.release()
+        self._store.release()
         self._store = None
 
 

@@ -259,8 +259,7 @@ class Renderer:
         depth = self._copy_depth() if self._clouds.meets_scene(view) else None
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
-        self._clouds.set_origin(viewport[0], viewport[1])
-        self._clouds.draw(view, depth)
+        self._clouds.draw(view, depth, viewport[:2])
 
     def _draw_fog(self, view: ViewData) -> None:
         if not self._fog.draws(view):
