@@ -30,6 +30,7 @@ RADII = (70.0, 45.0)  # m
 SOFT_EDGE = 12.0  # m
 CEILING = 62.0  # m, low enough that the cloud is in the picture with its rain
 SHOWER_CEILING = 80.0  # m
+ONSET = 0.5  # share of nature's time that a shower takes to begin and to end
 
 SHOWER_RADII = (85.0, 48.0)  # m, of the small one that passes in the distance
 SHOWER_EDGE = 46.0  # m
@@ -56,12 +57,15 @@ class Entities:
     def __init__(self, place: Place, mood: Mood, light: Light, time: float) -> None:
         self._place = place
         self._share = 1.0
-        self.area = RainArea(center=CENTER, radii=RADII, soft_edge=SOFT_EDGE, ceiling=CEILING)
+        self.area = RainArea(
+            center=CENTER, radii=RADII, soft_edge=SOFT_EDGE, ceiling=CEILING, onset=ONSET
+        )
         self.shower = RainArea(
             center=on_course(SHOWER_BEFORE, mood.wind_heading),
             radii=SHOWER_RADII,
             soft_edge=SHOWER_EDGE,
             ceiling=SHOWER_CEILING,
+            onset=ONSET,
             heading=mood.wind_heading,
             drift=1.0,
         )

@@ -240,6 +240,7 @@ def test_a_surface_catches_rain_or_leaves_it_to_the_game(made: Stage) -> None:
 def test_no_rain_no_rings_and_rest_after_it(made: Stage) -> None:
     surface = RippleSurface((3.0, 0.0, 0.0), (4.0, 3.0), cell=0.02, speed=2.0)
     shower = rain()
+    shower.onset = 0.0
     esper.create_entity(surface)
     esper.create_entity(shower)
     made.play(30, **ONTO)
