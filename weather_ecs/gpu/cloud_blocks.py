@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from weather_ecs.gpu.blocks import UniformBlock
+from weather_ecs.gpu.flash import CLOUD_LIGHTS
 
 CLOUD_VIEW = UniformBlock(
     "CloudView",
@@ -14,4 +15,7 @@ CLOUD_VIEW = UniformBlock(
     ("cloud_look", "vec4"),  # lining, bases, ambient; 1 for the plain model
     ("cloud_depth", "vec4"),  # depth = y / (ndc + x)
     ("cloud_origin", "vec4"),  # pixels, of the viewport; softness
+    ("cloud_flash_at", "vec4", CLOUD_LIGHTS),  # m from the camera; 1/m2, of the core
+    ("cloud_flash_color", "vec4", CLOUD_LIGHTS),
+    ("cloud_flashes", "int"),
 )

@@ -116,7 +116,7 @@ class Impostors:
         near = scene.away < CLOSE * scene.reach
         # Once drawn with billboards, a cloud stays so until it is clearly smaller.
         limit = largest * np.where(kept["real"], 0.85, 1.0)
-        wants = scene.visible & (near | (size > limit) | (scene.clouds["flash"] > 0.0))
+        wants = scene.visible & (near | (size > limit))
         if scene.parallel:
             wants = near = scene.visible
         error = self._errors(scene, versions[:, 1], size, largest)
@@ -216,6 +216,7 @@ class Impostors:
         rows[:, 0, :3] += center
         rows[:, 0, 3] = scene.clouds["opacity"][which]
         rows[:, 1, 3] = kept["share"]
+        rows[:, 2, 3] = scene.clouds["flash"][which]
         rows[:, 3] = self._frames(kept["tile"])[:, (0, 1, 2, 2)]
         rows[:, 4] = haze
         rows[:, 5:, :3] = kept["old_quad"]

@@ -9,6 +9,7 @@ from weather_ecs.frame import ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.cloud_blocks import CLOUD_VIEW
 from weather_ecs.gpu.cloud_images import hulls, image_array
+from weather_ecs.gpu.flash import cloud_lights
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.cloud_images import CLOUD_IMAGES
 from weather_ecs.physics.cloud_light import Surround
@@ -70,6 +71,10 @@ class CloudPrograms:
         data["cloud_sun"][:3], data["cloud_sun_color"][:3] = light.direction, light.sun
         data["cloud_above"][:3], data["cloud_below"][:3] = light.above, light.below
         data["cloud_ambient"][:3] = look.ambient * light.plain
+        places, colors = cloud_lights(view.frame, view.position)
+        data["cloud_flashes"] = 0 if look.plain else len(places)
+        data["cloud_flash_at"][: len(places)] = places
+        data["cloud_flash_color"][: len(places)] = colors
         data["cloud_look"] = (look.silver, look.base, look.ambient, float(look.plain))
         data["cloud_depth"][:2] = view.projection[2, 2], view.projection[2, 3]
         data["cloud_origin"][2] = max(look.softness, 1e-3)

@@ -41,6 +41,8 @@ RAIN_VIEW = UniformBlock(
     ("fog_shown", "vec4"),  # the same colour encoded; m of fog overhead
     ("light_position", "vec4", MAX_LIGHTS),  # m, and reach
     ("light_color", "vec4", MAX_LIGHTS),
+    ("flash_direction", "vec4"),  # unit, from the camera to the lightning
+    ("flash_color", "vec4"),  # linear, at the camera; 0 while there is none
     ("light_count", "int"),
 )
 

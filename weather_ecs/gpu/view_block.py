@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.frame import SkyLight, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.flash import HAZE, VEIL, flash_of
 from weather_ecs.gpu.rain_blocks import MAX_LIGHTS
 
 LOG2_E = 1.0 / math.log(2.0)  # shaders raise 2 to a power, which costs them less than e
@@ -58,12 +59,21 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     data["view_time"] = (view.frame.time, view.dt, 0.0, 0.0)
     data["sun_direction"] = (*sky.sun_direction, 0.0)
     data["sun_color"] = (*sky.sun_color, 0.0)
+    flash = flash_of(view.frame, view.position)
+    data["flash_color"] = 0.0
     drop, veil = _lights(sky)
     data["drop_color"][:3] = look.brightness * drop
     data["veil_color"][:3] = veil
     fog = view.frame.fog
-    data["fog_color"] = (*fog.color, fog.extinction * LOG2_E)
-    data["fog_shown"] = (*encode(np.array(fog.color)).tolist(), fog.depth)
+    color = np.array(fog.color)
+    if flash is not None:
+        way = flash.place - np.array(view.position)
+        data["flash_direction"][:3] = way / max(float(np.linalg.norm(way)), 1e-6)
+        data["flash_color"][:3] = flash.here
+        data["veil_color"][:3] = encode(veil_light(sky) + VEIL * flash.here)
+        color = color + HAZE * flash.here
+    data["fog_color"] = (*color.tolist(), fog.extinction * LOG2_E)
+    data["fog_shown"] = (*encode(color).tolist(), fog.depth)
     _fill_lights(block, view)
 
 

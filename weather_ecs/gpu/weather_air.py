@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import moderngl
+import numpy as np
 
 from weather_ecs.frame import FrameData
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+from weather_ecs.gpu.flash import HAZE, block_flash, flash_of
 from weather_ecs.physics.optics import CLEAR, CONTRAST, falling_extinction
 from weather_ecs.physics.phase import share_at, temperature_at
 
@@ -25,6 +27,8 @@ WEATHER_AIR = UniformBlock(
     ("weather_wind_law", "vec4"),
     ("weather_now", "vec4"),
     ("weather_air", "vec4"),
+    ("weather_flash_place", "vec4"),
+    ("weather_flash_color", "vec4"),
 )
 
 
@@ -70,14 +74,24 @@ class WeatherAir:
         known = self._made_of
         return known is None or known[0] is not frame or known[1:] != (y, rate)
 
-    def fill(self, frame: FrameData, y: float, rate: float) -> None:
-        """Take a frame over, with `rate` mm/h falling at an observer at the height `y`."""
+    def fill(
+        self, frame: FrameData, y: float, rate: float, place: tuple[float, float] = (0.0, 0.0)
+    ) -> None:
+        """Take a frame over, with `rate` mm/h falling at an observer at the height `y`.
+
+        place: (x, z) of the observer, m, for the light of lightning in the air there.
+        """
         self._made_of, self._frame = (frame, y, rate), frame
         air, fog, sky, profile = frame.air, frame.fog, frame.sky, frame.profile
         self._snow = rate * share_at(temperature_at(air.temperature, y), air.humidity)
         self._rain = rate - self._snow
         data = self._block.data
-        data["weather_fog_color"] = (*fog.color, fog.extinction)
+        flash = flash_of(frame, (place[0], y, place[1]))
+        color = np.array(fog.color)
+        if flash is not None:
+            color = color + HAZE * flash.here
+        data["weather_flash_place"], data["weather_flash_color"] = block_flash(flash)
+        data["weather_fog_color"] = (*color.tolist(), fog.extinction)
         thick = max(fog.extinction - CLEAR, 0.0)
         data["weather_fog_law"] = (self.extinction_with_rain, fog.depth, thick, 0.0)
         data["weather_sun_direction"] = (*sky.sun_direction, 0.0)

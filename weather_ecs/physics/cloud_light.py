@@ -57,6 +57,21 @@ def surround(
     return Surround(towards, sun, above, below, plain)
 
 
+FLASH_SHADE = 0.8  # of lightning's light, on what is turned from the sun
+
+
+def near_flash(p: Array, places: Array, colors: Array) -> Array:
+    """Light of lightning at places p (..., 3) from the camera, m.
+
+    places, colors: (m, 4) as `gpu.flash.cloud_lights` has them.
+    """
+    total = np.zeros_like(p)
+    for place, color in zip(places, colors, strict=True):
+        u = 1.0 + ((p - place[:3]) ** 2).sum(-1, keepdims=True) * place[3]
+        total = total + color[:3] * u**-1.5
+    return total
+
+
 @dataclass(frozen=True, slots=True)
 class Body:
     """What a cloud's light needs to know of it."""
@@ -125,7 +140,7 @@ def full_light(
     inside = np.maximum(1.0 - 0.55 * (q * q).sum(-1), 0.12)[..., None]
     flash = body.flash * inside * np.array([0.86, 0.90, 1.0])
     relief = (0.62 - 0.38 * a) * (0.45 + 0.55 * rise)
-    return Lit(lit + flash, shade + flash, rim, facing, relief, 0.75 * (1.0 - rise) ** 2)
+    return Lit(lit + flash, shade + FLASH_SHADE * flash, rim, facing, relief, 0.75 * (1.0 - rise) ** 2)
 
 
 def _length(x: Array) -> Array:

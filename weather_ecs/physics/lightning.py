@@ -30,7 +30,7 @@ _CONTINUING = 0.3  # share of flashes to ground that have a long continuing curr
 # film camera does, or most frames of a picture would miss it.
 HELD = 0.040  # s
 FAINTEST = 0.004  # of a first stroke, below which a flash is over
-CHANNEL = 1500.0  # m, within which light does not fall off as from a point
+CHANNEL = 2500.0  # m, within which light does not fall off as from a point
 ALL_ROUND = 0.45  # share of the light that clouds and air have scattered until it arrives
 
 Vector = tuple[float, float, float]

@@ -1,6 +1,7 @@
 // Billboards of clouds, eight vertices each, of a stream of (billboard, cloud) that is sorted.
 #include "cloud_row.glsl"
 #include "cloud_light.glsl"
+#include "cloud_flash.glsl"
 
 uniform usampler2D cloud_stream;
 uniform int cloud_first;  // of this draw in the stream
@@ -64,6 +65,10 @@ void main()
         vec4 seed = fetch_light(int(pair.x), cloud.fresh, to_shape(cloud, offset));
         vec3 s = place_in_cloud(cloud, seed.xyz);
         light = full_light(cloud, v, s, p / max(length(p), 1e-3), seed.w);
+        // A picture of the cloud is taken without.
+        vec3 flash = cloud_hazed * (own_flash(cloud.flash, v / cloud.half_size) + near_flash(p));
+        light.lit += flash;
+        light.shade += FLASH_SHADE * flash;
     }
     vs_lit = encode(light.lit);
     vs_shade = encode(light.shade);

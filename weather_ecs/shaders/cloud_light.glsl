@@ -63,9 +63,5 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     float edge = smoothstep(0.50, 1.0, length(aside));
     light.rim = cloud_look.x * cloud_sun_color.rgb * forward * (0.08 + 0.92 * edge) * (1.0 - 0.5 * a);
 
-    float inside = max(1.0 - 0.55 * dot(q, q), 0.12);
-    vec3 flash = cloud.flash * inside * vec3(0.86, 0.90, 1.0);
-    light.lit += flash;
-    light.shade += flash;
     return light;
 }

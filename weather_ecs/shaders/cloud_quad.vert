@@ -8,18 +8,22 @@ out vec2 vs_before;  // place in the older picture
 flat out vec4 vs_frame;  // the older picture's frame
 flat out vec4 vs_haze;
 flat out vec2 vs_share;  // opacity, and share of the newer picture
+flat out float vs_flash;
+out vec3 vs_from;  // place from the camera, m
 
 void main()
 {
     int row = cloud_first + gl_InstanceID;
     vec4 a = texelFetch(cloud_quads, ivec2(0, row), 0);  // centre, opacity
     vec4 b = texelFetch(cloud_quads, ivec2(1, row), 0);  // half of the width, share of the newer
-    vec4 c = texelFetch(cloud_quads, ivec2(2, row), 0);  // half of the height
+    vec4 c = texelFetch(cloud_quads, ivec2(2, row), 0);  // half of the height, flash
     vec4 uv = texelFetch(cloud_quads, ivec2(3, row), 0);  // corner and size
     vs_haze = texelFetch(cloud_quads, ivec2(4, row), 0);
     vs_share = vec2(a.w, b.w);
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     vec3 p = a.xyz + b.xyz * corner.x + c.xyz * corner.y;
+    vs_from = p;
+    vs_flash = c.w;
     vs_uv = uv.xy + uv.zw * (corner * 0.5 + 0.5);
     vs_before = vec2(0.0);
     vs_frame = vec4(0.0);

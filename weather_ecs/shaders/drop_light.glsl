@@ -6,6 +6,7 @@ vec3 drop_light(vec3 p, vec3 ray)
 {
     float glow = pow(max(dot(ray, sun_direction.xyz), 0.0), 8.0);
     vec3 light = drop_color.rgb + sun_color.rgb * (0.6 * glow);
+    light += flash_color.rgb * (0.35 + 0.65 * pow(max(dot(ray, flash_direction.xyz), 0.0), 4.0));
     for (int i = 0; i < light_count; ++i) {
         vec3 away = light_position[i].xyz - p;
         float r2 = dot(away, away);

@@ -7,6 +7,7 @@ vec3 flake_light(vec3 p, vec3 ray)
 {
     float onwards = max(dot(ray, sun_direction.xyz), 0.0);
     vec3 light = snow_color.rgb + sun_color.rgb * (0.22 + 0.5 * onwards * onwards * onwards);
+    light += flash_color.rgb * (0.6 + 0.4 * max(dot(ray, flash_direction.xyz), 0.0));
     for (int i = 0; i < light_count; ++i) {
         vec3 away = light_position[i].xyz - p;
         float r2 = dot(away, away);

@@ -15,6 +15,8 @@ layout(std140) uniform WeatherAir
     vec4 weather_wind_law;       // reference height; exponent of the growth; height of the ground
     vec4 weather_now;            // s, the weather's clock; rain and snow at the eye, mm/h of water
     vec4 weather_air;            // degrees Celsius at y = 0; humidity, 0 to 1; share of snow
+    vec4 weather_flash_place;    // of lightning, m; 1/m2, how its light falls off
+    vec4 weather_flash_color;    // there; 0 while there is none
 };
 
 // Share of a thing's own light left after so many metres of air and fog.
@@ -57,6 +59,15 @@ vec3 weather_light(vec3 normal, float lit)
     vec3 sky = 0.5 * (weather_zenith_color.rgb + weather_horizon_color.rgb);
     vec3 around = mix(weather_ground_color.rgb, sky, 0.5 + 0.5 * normal.y);
     return around + weather_sun_color.rgb * (lit * max(dot(normal, weather_sun_direction.xyz), 0.0));
+}
+
+// Light of lightning on a surface with a unit normal at the world place p; add it to the above.
+vec3 weather_flash(vec3 p, vec3 normal)
+{
+    vec3 way = weather_flash_place.xyz - p;
+    float away2 = dot(way, way);
+    float facing = max(dot(normal, way) * inversesqrt(max(away2, 1e-6)), 0.0);
+    return weather_flash_color.rgb * ((0.45 + 0.55 * facing) / (1.0 + away2 * weather_flash_place.w));
 }
 
 // m/s of wind at a world height.

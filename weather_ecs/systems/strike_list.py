@@ -14,7 +14,7 @@ from weather_ecs.systems.state import WeatherState
 LONGEST = 2.5  # s that a flash may last
 IN_CLOUD = 0.7  # light of a flash that stays in its cloud, of one to ground
 HIGH, LOW = 0.85, 0.40  # of a channel's height: where its light is for clouds, and for the ground
-OWN = 0.35  # of a flash's strength, by which the whole of its cloud is lit
+OWN = 0.10  # of a flash's strength, by which the whole of its cloud is lit
 MOST_LIGHT = 1.0e4
 NO_STRIKES = empty(STRIKE_DTYPE)
 
