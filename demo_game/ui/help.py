@@ -16,7 +16,6 @@ LEFT = (
     ("F1", "this page"),
     ("F3", "readout"),
     ("M", "map"),
-    ("N", "sound on and off"),
     ("F11", "full screen"),
     ("F12", "save a picture"),
     ("", ""),
@@ -35,6 +34,7 @@ RIGHT = (
     ("[  ]", "less wind, more wind"),
     (",  .", "turn the wind"),
     ("T", "time of day"),
+    ("N", "sound on and off"),
 )
 PURPOSE = (
     "Carry the letter from the table in the cabin to the mailbox at the end of the path, and keep",

@@ -1,0 +1,101 @@
+"""Draws the spectra of the walk's sound: `python -m tools.plot_sound FILE`.
+
+Needs matplotlib (the development extra has it). The figure in docs/sound.md is made by it.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from demo_game.sound import laws
+from demo_game.sound.overlap import HOP, RATE
+from demo_game.sound.synth import Heard, Synth
+
+RATES = (2.0, 10.0, 50.0)  # mm/h
+SPEEDS = (5.0, 10.0, 20.0)  # m/s
+DISTANCES = (100.0, 1000.0, 5000.0)  # m
+COLORS = ("#2a9d8f", "#457b9d", "#d1495b")
+SETTLING, BLOCKS = 40, 400
+EDGES = 40.0 * 2.0 ** (np.arange(28) / 3.0)  # Hz, of third octaves
+
+
+def rendered(blocks: int = BLOCKS, strike: float | None = None, **told: float) -> NDArray:
+    """(n,) samples of one ear in a steady weather, or of a strike's thunder."""
+    synth = Synth(1)
+    synth.hear(Heard(**told))
+    for _ in range(SETTLING):
+        synth.block()
+    if strike is not None:
+        synth.thunder(strike, 1.0)
+    return np.concatenate([synth.block()[0] for _ in range(blocks)])
+
+
+def thirds(signal: NDArray) -> tuple[NDArray, NDArray]:
+    """Middles of third octaves in Hz, and the level in each in dB under full scale."""
+    power = np.abs(np.fft.rfft(signal)) ** 2 * 2.0 / signal.size**2
+    f = np.fft.rfftfreq(signal.size, 1.0 / RATE)
+    summed = np.array(
+        [power[(f >= a) & (f < b)].sum() for a, b in zip(EDGES[:-1], EDGES[1:], strict=True)]
+    )
+    return np.sqrt(EDGES[:-1] * EDGES[1:]), 10.0 * np.log10(np.maximum(summed, 1e-12))
+
+
+def figure() -> Any:
+    """Rain in the open and under the roof, wind, and thunder over time."""
+    from matplotlib.figure import Figure
+
+    made = Figure(figsize=(12.0, 7.6), layout="constrained")
+    (rain, filtered), (wind, thunder) = made.subplots(2, 2)
+    for rate, color in zip(RATES, COLORS, strict=True):
+        for roof, style in ((0.0, "-"), (1.0, "--")):
+            f, level = thirds(rendered(rain_rate=rate, roof=roof))
+            label = f"{rate:g} mm/h{', under the roof' if roof else ''}"
+            rain.plot(f, level, style, color=color, label=label)
+    rain.set_title("Rain")
+    f, open_ = thirds(rendered(wind_speed=14.0))
+    _, under = thirds(rendered(wind_speed=14.0, roof=1.0))
+    filtered.plot(f, under - open_, "o", ms=4, color=COLORS[2], label="measured in the sound")
+    law = 20.0 * np.log10(laws.shelter_gain(f, 0.0, 1.0) / laws.shelter_gain(f, 0.0, 0.0))
+    filtered.plot(f, law, color=COLORS[1], label=f"low-pass at {laws.ROOF_CORNER:g} Hz")
+    filtered.set_title("What the roof leaves of the sound from outside")
+    for speed, color in zip(SPEEDS, COLORS, strict=True):
+        f, level = thirds(rendered(wind_speed=speed))
+        wind.plot(f, level, color=color, label=f"{speed:g} m/s")
+    wind.set_title("Wind")
+    for ax in (rain, filtered, wind):
+        ax.set_xscale("log")
+        ax.set_xlabel("Hz")
+        ax.set_ylabel("dB in third octaves")
+    for ax in (rain, wind):
+        ax.set_ylim(-90.0, -15.0)
+    for distance, color in zip(DISTANCES, COLORS, strict=True):
+        signal = rendered(round(16.0 * RATE / HOP), distance)
+        fine = signal[: signal.size // 2205 * 2205].reshape(-1, 2205)
+        level = 20.0 * np.log10(np.maximum(np.sqrt((fine**2).mean(axis=1)), 1e-5))
+        thunder.plot((np.arange(level.size) + 0.5) * 0.05, level, color=color,
+                     label=f"{distance / 1000.0:g} km")  # fmt: skip
+    thunder.set_title("Thunder that is due after 1 s")
+    thunder.set_xlabel("s")
+    thunder.set_ylabel("dB")
+    thunder.set_ylim(-80.0, 0.0)
+    for ax in made.axes:
+        ax.grid(True, alpha=0.3)
+        ax.legend(fontsize=8)
+    return made
+
+
+def main(arguments: list[str]) -> int:
+    """Draw into the file that is named; returns the exit code."""
+    if len(arguments) != 1:
+        print("plot_sound: needs FILE, such as docs/images/sound.png", file=sys.stderr)
+        return 2
+    figure().savefig(arguments[0], dpi=100)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
