@@ -14,9 +14,12 @@ from numpy.typing import NDArray
 
 from demo_game.settings import VOLUMES, Settings
 from demo_game.sound import Soundscape, WalkSound, device, laws
+from demo_game.sound.impacts import BOARD, GROUND, LEAF, bank
 from demo_game.sound.listener import listen
 from demo_game.sound.overlap import FREQUENCIES, HOP, RATE, Overlap, amplitudes
+from demo_game.sound.rain import near_rate
 from demo_game.sound.synth import FLUTTER, TURBULENCE, Heard, Synth, to_bytes
+from tools import plot_sound
 
 ROOT = Path(__file__).parent.parent
 SETTLING = 40  # blocks, after which nothing glides any more
@@ -384,3 +387,24 @@ def test_a_driver_is_fed_as_it_plays_and_gets_what_it_asks_for() -> None:
         [sys.executable, "-c", PLAYED], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_the_script_of_the_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert plot_sound.main([]) == 2
+    assert "FILE" in capsys.readouterr().err
+    tone = 0.5 * np.sin(2.0 * np.pi * 1000.0 * np.arange(RATE) / RATE)
+    f, level = plot_sound.thirds(tone)
+    assert f[level.argmax()] == pytest.approx(1000.0, rel=0.13)
+    assert level.max() == pytest.approx(20.0 * np.log10(tone.std()), abs=0.01)
+    kept = ROOT / "docs" / "images" / "sound.png"
+    assert kept.stat().st_size < 300_000
+
+
+def test_a_drop_has_the_energy_that_the_levels_count_on() -> None:
+    for surface in (GROUND, LEAF, BOARD):
+        for sound in bank(surface, 1, 6):
+            assert (sound**2).sum() == pytest.approx(1.0, rel=1e-3)
+            assert np.abs(sound[[0, -1]]).max() < 1e-3  # no edge that clicks
+    assert near_rate(0.0) == 0.0
+    rates = [near_rate(rate) for rate in (0.5, 2.0, 10.0, 200.0)]
+    assert rates == sorted(rates) and 5.0 < rates[1] < 60.0

@@ -1,11 +1,14 @@
-"""Draws the spectra of the walk's sound: `python -m tools.plot_sound FILE`.
+"""Draws the spectra of the walk's sound: `python -m tools.plot_sound FILE [FOLDER]`.
 
-Needs matplotlib (the development extra has it). The figure in docs/sound.md is made by it.
+Into a folder go the sounds themselves, as WAV. Needs matplotlib (the development extra has it). The
+figure in docs/sound.md is made by it.
 """
 
 from __future__ import annotations
 
 import sys
+import wave
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,7 +16,7 @@ from numpy.typing import NDArray
 
 from demo_game.sound import laws
 from demo_game.sound.overlap import HOP, RATE
-from demo_game.sound.synth import Heard, Synth
+from demo_game.sound.synth import Heard, Synth, to_bytes
 
 RATES = (2.0, 10.0, 50.0)  # mm/h
 SPEEDS = (5.0, 10.0, 20.0)  # m/s
@@ -88,12 +91,30 @@ def figure() -> Any:
     return made
 
 
+def write_sounds(folder: Path) -> None:
+    """Eight seconds of each rain and wind, and thunder, as WAV files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    sounds = {f"rain_{rate:g}": rendered(rain_rate=rate) for rate in RATES}
+    sounds |= {f"rain_{rate:g}_roof": rendered(rain_rate=rate, roof=1.0) for rate in RATES}
+    sounds |= {f"wind_{speed:g}": rendered(wind_speed=speed) for speed in SPEEDS}
+    blocks = round(16.0 * RATE / HOP)
+    sounds |= {f"thunder_{far:g}": rendered(blocks, far) for far in DISTANCES}
+    for name, signal in sounds.items():
+        with wave.open(str(folder / f"{name}.wav"), "wb") as file:
+            file.setnchannels(1)
+            file.setsampwidth(2)
+            file.setframerate(RATE)
+            file.writeframes(to_bytes(signal[None]))
+
+
 def main(arguments: list[str]) -> int:
     """Draw into the file that is named; returns the exit code."""
-    if len(arguments) != 1:
+    if len(arguments) not in (1, 2):
         print("plot_sound: needs FILE, such as docs/images/sound.png", file=sys.stderr)
         return 2
     figure().savefig(arguments[0], dpi=100)
+    if len(arguments) == 2:
+        write_sounds(Path(arguments[1]))
     return 0
 
 

@@ -42,6 +42,7 @@ def bank(
     """Sounds of drops on a surface, each of energy 1: a knock and two modes that die away."""
     low, high, short, long, length = surface
     random = np.random.default_rng(seed)
+    soft = max(round(0.04 * short * RATE), 1)  # samples over which a knock is blurred
     t = np.arange(round(length * RATE)) / RATE
     sounds = []
     for _ in range(kinds):
@@ -51,6 +52,7 @@ def bank(
         partial = pitch * random.uniform(1.5, 2.9)
         sound += 0.6 * np.sin(2.0 * np.pi * partial * t) * np.exp(-2.0 * t / decay)
         knock = random.standard_normal(t.size) * np.exp(-t / (0.35 * short))
+        knock = np.convolve(knock, np.hanning(soft + 2)[1:-1])[: t.size]
         sound += 0.35 * knock / np.sqrt((knock**2).sum()) * np.sqrt((sound**2).sum())
         sound *= np.minimum(t / 0.0002, 1.0) * np.minimum((t[-1] - t) / 0.003, 1.0)  # no edges
         sounds.append((sound / np.sqrt((sound**2).sum())).astype(np.float32))
