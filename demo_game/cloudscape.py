@@ -12,7 +12,7 @@ from weather_ecs import presets
 from weather_ecs.components import Climate, Cloud, RainArea, SkyLayer
 
 DURATION = 150.0  # s from clear to storm and back again
-SETTLING = 22.0  # s in which the clouds come to be those of another state
+SETTLING = 14.0  # s in which the clouds come to be those of another state
 SETTLED = 60.0  # s after a change by which they are
 CHANGED = 0.004  # of the state, that calls for other clouds
 FAIR_BASE = 600.0, 2000.0  # m, between which the bases of cumulus are
@@ -24,9 +24,17 @@ RAINY = ("nimbostratus", "cumulonimbus", "stratus")
 class Cloudscape:
     """Makes the entities in esper's current world and keeps them in step with the game's mood."""
 
-    def __init__(self, state: float, areas: Sequence[RainArea], layers: Sequence[SkyLayer]) -> None:
+    def __init__(
+        self,
+        state: float,
+        areas: Sequence[RainArea],
+        layers: Sequence[SkyLayer],
+        climate: Climate | None = None,
+    ) -> None:
         self.layers = list(layers)
-        self.climate = Climate(duration=DURATION, elapsed=state * DURATION, running=False)
+        self.climate = climate or Climate(
+            duration=DURATION, elapsed=state * DURATION, running=False
+        )
         for component in (*self.layers, self.climate):
             esper.create_entity(component)
         self._rates: dict[str, float] = {}
@@ -44,12 +52,15 @@ class Cloudscape:
             esper.create_entity(cloud)
             self.clouds.append((cloud, area))
         self._last = state
+        self._rains = False
         self._left = 0.0  # s for which the clouds go on changing where they stand
 
     @property
     def state(self) -> float:
         """Of the climate, 0 clear to 1 storm."""
-        return self.climate.elapsed / self.climate.duration
+        c = self.climate
+        done = min(c.elapsed / c.duration, 1.0)
+        return c.initial + (c.final - c.initial) * done
 
     @property
     def is_running(self) -> bool:
@@ -62,14 +73,14 @@ class Cloudscape:
         self.climate.speed = 1.0 if onwards else -1.0
         if not self.climate.running:
             self.climate.running = True
-            self._let_rain(True)
+        self.let_rain(True)
         return onwards
 
     def stop(self) -> None:
         """The mood says what the state is."""
         if self.climate.running:
             self.climate.running = False
-            self._let_rain(False)
+        self.let_rain(False)
 
     def update(self, dt: float, state: float, rates: Sequence[float]) -> None:
         """Let dt seconds pass; the mood's `state` counts while the climate does not run.
@@ -88,7 +99,11 @@ class Cloudscape:
         for (cloud, area), rate in zip(self.clouds, rates, strict=True):
             place_over(cloud, area, rate)
 
-    def _let_rain(self, rains: bool) -> None:
+    def let_rain(self, rains: bool) -> None:
+        """Whether the clouds of the sky bring their own rain."""
+        if rains is self._rains:
+            return
+        self._rains = rains
         for model in self._models:
             model.rain_rate = self._rates[model.name] if rains else 0.0
 

@@ -71,8 +71,8 @@ class Entities:
         )
         self._wind, self._sun = Wind(**BREEZE), Sun()
         self._air, self._fog = Air(), Fog()
-        self._drops, self._flakes = RainContainer(), SnowFlakes(settling=SETTLING)
-        looks = self._drops, self._flakes, SplashEmitter(), self._air, self._fog
+        self._drops, self.flakes = RainContainer(), SnowFlakes(settling=SETTLING)
+        looks = self._drops, self.flakes, SplashEmitter(), self._air, self._fog
         for component in (self.area, self.shower, *looks, self._wind, self._sun):
             esper.create_entity(component)
         (x, z), (a, b), level = place.pond
@@ -117,7 +117,7 @@ class Entities:
         _assign(self._fog, visibility=clearest(mood.visibility), color=displayed(light))
         left = under_cloud(mood.rain_rate if dark_for is None else dark_for)
         _assign(self._drops, brightness=round(left * DROPS_BRIGHT, 3))
-        _assign(self._flakes, brightness=round(left * FLAKES_BRIGHT, 3))
+        _assign(self.flakes, brightness=round(left * FLAKES_BRIGHT, 3))
         _assign(
             self._sun,
             color=light.sun_color,

@@ -19,6 +19,7 @@ from demo_game.letter import Letter, State
 from demo_game.mood import AIRS, TURN_STEP, WIND_STEP, Mood, MoodChanger, preset_mood
 from demo_game.place import Place
 from demo_game.player import Intent, Player
+from demo_game.plays import Play
 from demo_game.render import Environment, SceneRenderer
 from demo_game.settings import Settings
 from demo_game.showers import Showers
@@ -27,11 +28,12 @@ from demo_game.tours import Tour
 from weather_ecs import Weather
 from weather_ecs.components import RainArea, SkyLayer
 from weather_ecs.errors import WeatherError
-from weather_ecs.presets import PRESETS
+from weather_ecs.presets import PRESETS, SKIES
 
 WIND_HEADING = math.radians(-22.5)  # to the east, a little south
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings its own clouds
+CLOUDS_FROM_TO = 700.0, 2900.0  # m, in which one comes out of them
 SHEET_SHARE = 0.35  # more where the cloud is one sheet
 SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
 COMPARED_TOURS = ("walk", "run", "crossing")
@@ -74,10 +76,13 @@ class Game:
         self.place = place if place is not None else Place(seed)
         self.player = Player(self.place, Colliders.of(self.place.colliders))
         self.player.place_at(*start, yaw=0.0)
+        self.pose = self._pose()
         self.letter = Letter(self.place.letter, self.place.mailbox)
         self._showers, self._lull, self._news = Showers(seed), False, [FETCH]
         self._entities = Entities(self.place, self._mood(), self._light(), SCENE_START)
         self._scape = Cloudscape(self._scenery().state, self._entities.areas(), self._layers())
+        self._play = getattr(tour, "play", None)
+        self._scape.let_rain(preset in SKIES and preset not in PRESETS)
         self.scene = SceneRenderer(context, self.place, settings.quality)
         try:
             self.weather = self._make_weather()
@@ -85,7 +90,6 @@ class Game:
             self.scene.release()
             self._leave_world()
             raise
-        self.pose = self._pose()
 
     @property
     def state(self) -> str:
@@ -102,7 +106,9 @@ class Game:
         esper.switch_world(self._world)
         self.time += dt
         self.mood.update(dt)
-        if self._scape.is_running:
+        if self._play is not None:
+            self._follow_play(self._play)
+        elif self._scape.is_running:
             self.mood.follow_climate(self._scape.state)
         self.sky.update(dt)
         share = self._showers.share(self.time) if self.tour is None else 1.0
@@ -110,7 +116,7 @@ class Game:
         light, dark_for = self._light(), scenery.rain_rate
         self._entities.update(self._mood(), light, self._scene_time, share, dark_for)
         rates = [rate for _, rate in self._entities.rates(scenery)]
-        self._scape.update(dt, scenery.state, rates)
+        self._scape.update(dt * self.weather.speed, scenery.state, rates)
         if self.tour is None:
             self.player.update(dt, intent)
         self.pose = self._pose()
@@ -184,6 +190,14 @@ class Game:
         self.scene.release()
         self._leave_world()
 
+    def _follow_play(self, play: Play) -> None:
+        turn = play.at(self.time, self.mood.target.wind_heading)
+        self.mood.put(turn.mood, turn.name)
+        self._scape.let_rain(turn.rains)
+        self.weather.speed = turn.speed
+        if turn.settling is not None:
+            self._entities.flakes.settling = turn.settling
+
     def _carry_letter(self, dt: float) -> None:
         player, letter = self.player, self.letter
         before, (x, y, z) = letter.state, player.position.tolist()
@@ -240,7 +254,8 @@ class Game:
     @property
     def _is_compared(self) -> bool:
         """Whether two runs of the tour may differ by what falls alone."""
-        return self.tour is not None and self.tour.name in COMPARED_TOURS
+        tour, preset = self.tour, self.mood.preset
+        return tour is not None and tour.name in COMPARED_TOURS and preset in PRESETS
 
     @property
     def _scene_time(self) -> float:
@@ -251,7 +266,8 @@ class Game:
 
     def _scenery(self) -> Mood:
         """What sky and air follow: on a tour not the rain, so that two differ by the rain alone."""
-        if self.tour is not None and self.mood.preset not in AIRS:
+        name = self.mood.preset
+        if self.tour is not None and name in PRESETS and name not in AIRS:
             return preset_mood(TOUR_SKY, WIND_HEADING)
         return self.mood.current
 
@@ -261,7 +277,11 @@ class Game:
 
     def _overcast(self) -> float:
         mood = self._scenery()
-        return SKY_LEAST + (SKY_SHARE + SHEET_SHARE * mood.closed) * mood.overcast
+        share = SKY_LEAST + (SKY_SHARE + SHEET_SHARE * mood.closed) * mood.overcast
+        # Who flies up through the clouds leaves them below.
+        low, high = CLOUDS_FROM_TO
+        left = min(max((high - self.pose.eye[1]) / (high - low), 0.0), 1.0)
+        return share * left * left * (3.0 - 2.0 * left)
 
     def _light(self) -> Any:
         light = self.sky.light(self._overcast())

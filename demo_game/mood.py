@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from weather_ecs.presets import PRESETS
+from weather_ecs.presets import PRESETS, SKIES
 
 CHANGE_TIME = 4.0  # s from one preset to the next
 TURN_TIME = 1.0  # s for a change of the wind by hand
@@ -90,12 +90,19 @@ def _blend_visibility(before: float, after: float, share: float) -> float:
     return math.exp(math.log(before) + share * (math.log(after) - math.log(before)))
 
 
+def mood_of(name: str, wind_heading: float) -> Mood:
+    """The mood of a preset, of a sky by name, or of whatever sky a file holds: fair weather."""
+    if name in PRESETS:
+        return preset_mood(name, wind_heading)
+    return climate_mood(SKIES.get(name, SKIES["fair"]), wind_heading)
+
+
 class MoodChanger:
     """The current mood, on its way to the one that was asked for."""
 
     def __init__(self, preset: str, wind_heading: float) -> None:
         self.preset = preset
-        self.current = preset_mood(preset, wind_heading)
+        self.current = mood_of(preset, wind_heading)
         self._from = self._to = self.current
         self._time, self._length = 1.0, 1.0
 
@@ -124,6 +131,12 @@ class MoodChanger:
         self._to = target
         if not self.changing:
             self.current = target
+
+    def put(self, mood: Mood, name: str) -> None:
+        """Be in a mood at once."""
+        self.preset = name
+        self.current = self._from = self._to = mood
+        self._time = self._length
 
     def blow(self, by: float) -> None:
         """Strengthen the wind by so many m/s, within 0 and STRONGEST_WIND."""

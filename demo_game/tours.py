@@ -1,23 +1,21 @@
 """Scripted ways through the place: a pose for every moment, the same at any frame rate.
 
 `walk` shows every stage within the time it is given: it goes as fast as that needs, each stage
-having its share of the time (`WALK`). `run` and `crossing` move at a true speed.
+having its share of the time (`WALK`); so do `clouds` and `snow`. `run` and `crossing` move at a
+true speed.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-
 import numpy as np
 
-from demo_game.camera import Pose
 from demo_game.curve import Smooth
-from demo_game.player import BOB, RUN_SPEED, STRIDE, SWAY, Ground
+from demo_game.player import RUN_SPEED, Ground
 from demo_game.route import Glance, Key, Look, Route, stage_at
+from demo_game.tour import WALKING, Tour, WalkTour
+from demo_game.tour_sky import clouds_tour, snow_tour
 
-TOURS = ("walk", "run", "crossing", "still")
-WALKING = 1.4  # m/s
+TOURS = ("walk", "run", "crossing", "still", "clouds", "snow")
 
 EDGE_Z = -25.0  # m, where the way crosses the perimeter of the rain area
 CURTAIN = (0.0, 16.0, -60.0)  # what one looks at from outside
@@ -67,40 +65,6 @@ STILL = (-4.0, -44.0)
 STILL_LOOK = (6.0, 2.2, -62.0)
 
 
-class Tour:
-    """A pose for every moment."""
-
-    def __init__(
-        self,
-        name: str,
-        route: Route,
-        along: Callable[[float], float],
-        look: Callable[[float], tuple[float, float]],
-        stages: Callable[[float], str],
-        *,
-        hurried: bool = False,
-    ) -> None:
-        self.name = name
-        self._route, self._along, self._look, self._stages = route, along, look, stages
-        self._hurried = hurried
-
-    def pose(self, time: float) -> Pose:
-        """Eye and look at `time` seconds."""
-        along = self._along(time)
-        speed = (self._along(time + 0.02) - self._along(time - 0.02)) / 0.04
-        # Where the way is hurried the steps follow the clock: nobody takes 15 of them a second.
-        phase = math.tau * (time * WALKING if self._hurried else along) / STRIDE
-        share = min(max(speed / WALKING, 0.0), 1.0)
-        x, y, z = self._route.eye(along)
-        yaw, pitch = self._look(time)
-        eye = (x, y - share * BOB * math.cos(2 * phase), z)
-        return Pose(eye, yaw, pitch, share * SWAY * math.sin(phase))
-
-    def stage(self, time: float) -> str:
-        """Name of the stage at `time`."""
-        return self._stages(time)
-
-
 def make_tour(name: str, ground: Ground, duration: float, speed: float = WALKING) -> Tour:
     """A tour of that name that lasts `duration` seconds; `speed` (m/s) is for `crossing`."""
     duration = max(duration, 1e-6)
@@ -112,6 +76,10 @@ def make_tour(name: str, ground: Ground, duration: float, speed: float = WALKING
         return _straight("crossing", ground, CROSSING, speed)
     if name == "still":
         return _still(ground)
+    if name == "clouds":
+        return clouds_tour(ground, duration)
+    if name == "snow":
+        return snow_tour(ground, duration)
     raise ValueError(f"tour: got {name!r}, allowed: {', '.join(TOURS)}")
 
 
@@ -120,7 +88,7 @@ def _walk(ground: Ground, duration: float) -> Tour:
     corners = route.path.corner_lengths
     along_share = Smooth([key.u for key in WALK], [corners[key.corner] for key in WALK])
     look = Look.between(route, along_share, GLANCES)
-    return Tour(
+    return WalkTour(
         "walk",
         route,
         lambda time: along_share(time / duration),
@@ -143,7 +111,7 @@ def _straight(
         return "outside" if route.path(along(time))[1] > EDGE_Z else "inside"
 
     look = Look.ahead(route)
-    return Tour(name, route, along, lambda time: look(along(time) / length), stage)
+    return WalkTour(name, route, along, lambda time: look(along(time) / length), stage)
 
 
 def _still(ground: Ground) -> Tour:
@@ -151,4 +119,4 @@ def _still(ground: Ground) -> Tour:
     route = Route(ground, [(x, z), (x, z - 1.0)], rounding=0.0)
     eye = np.array(route.eye(0.0))
     look = Look.towards(np.array(STILL_LOOK) - eye)
-    return Tour("still", route, lambda time: 0.0, look, lambda time: "still")
+    return WalkTour("still", route, lambda time: 0.0, look, lambda time: "still")

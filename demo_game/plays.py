@@ -1,0 +1,71 @@
+"""What a tour does with the weather on its way: a course of moods over the share of its time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from demo_game.mood import CLIMATE, Mood, blend, climate_mood, preset_mood
+
+
+@dataclass(frozen=True)
+class Turn:
+    """The weather at one moment of a tour."""
+
+    mood: Mood
+    name: str  # of the preset it is nearest to, or `mood.CLIMATE`
+    speed: float = 1.0  # s of weather in a second
+    rains: bool = False  # whether the clouds of the sky bring their own rain
+    settling: float | None = None  # how fast snow settles; None: as in play
+
+
+class Play(Protocol):
+    """A course of the weather."""
+
+    def at(self, time: float, wind_heading: float) -> Turn:
+        """The weather at `time` s of the tour."""
+
+
+class StormPlay:
+    """From a clear sky to a storm, in the time-lapse that a short tour needs; then as it is."""
+
+    RISE = 0.03, 0.44  # shares of the tour in which the state goes from 0 to 1
+    STEADY = 0.62  # share from which the weather runs at its own speed
+    LENGTH = 260.0  # s of weather in which the sky fills
+
+    def __init__(self, duration: float) -> None:
+        self._duration = duration
+        self._speed = min(max(self.LENGTH / (self.STEADY * duration), 1.0), 900.0)
+
+    def at(self, time: float, wind_heading: float) -> Turn:
+        """The weather at `time` s of the tour."""
+        u = time / self._duration
+        begin, end = self.RISE
+        state = min(max((u - begin) / (end - begin), 0.0), 1.0)
+        speed = self._speed if u < self.STEADY else 1.0
+        return Turn(climate_mood(state, wind_heading), CLIMATE, speed, rains=True)
+
+
+class SnowPlay:
+    """A cold grey day on which it begins to snow, snows until all is white, and stops."""
+
+    BEGINS, FULL, EASES, ENDS = 0.10, 0.20, 0.70, 0.80  # shares of the tour
+    DEPTH = 0.030  # m that lie at the end
+    GROWS = 0.035 / 3600.0  # m/s, by which 3.5 mm/h of water grow deep where nothing is hastened
+
+    def __init__(self, duration: float) -> None:
+        self._duration = duration
+        snows = 0.5 * (self.EASES + self.ENDS - self.BEGINS - self.FULL) * duration
+        self._settling = min(max(self.DEPTH / (self.GROWS * snows), 1.0), 100.0)
+
+    def at(self, time: float, wind_heading: float) -> Turn:
+        """The weather at `time` s of the tour."""
+        u = time / self._duration
+        snows = preset_mood("heavy_snow", wind_heading)
+        rests = replace(snows, rain_rate=0.0, wind_speed=1.5, visibility=30_000.0)
+        share = min(
+            max((u - self.BEGINS) / (self.FULL - self.BEGINS), 0.0),
+            max((self.ENDS - u) / (self.ENDS - self.EASES), 0.0),
+            1.0,
+        )
+        return Turn(blend(rests, snows, share), "heavy_snow", settling=self._settling)
