@@ -56,5 +56,17 @@ class WeatherFileError(WeatherError, ValueError):
         return error
 
 
+class MissingExtraError(WeatherError, ImportError):
+    """A library is missing that an optional feature needs; names the extra that brings it."""
+
+    def __init__(self, extra: str, library: str) -> None:
+        super().__init__(f"the library {library!r} is missing: pip install 'weather_ecs[{extra}]'")
+        self.extra = extra
+
+
+class MetarError(WeatherError, ValueError):
+    """A text that is not a METAR report, or one of impossible values."""
+
+
 class ClosedError(WeatherError, RuntimeError):
     """The weather was used after `close`."""

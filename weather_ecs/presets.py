@@ -11,6 +11,7 @@ from weather_ecs.cloud_presets import cloud_model as cloud_model
 from weather_ecs.cloud_presets import sky as sky
 from weather_ecs.components import Air, Fog, RainArea, Wind
 from weather_ecs.errors import InvalidValueError
+from weather_ecs.weathers import WEATHERS as WEATHERS  # whole ones, for Weather.change_to
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,7 @@ from weather_ecs.components._base import Component, set_unchecked
 from weather_ecs.errors import InvalidValueError, SnapshotError
 from weather_ecs.physics.ground_law import SnowLaw
 from weather_ecs.systems.cloud_field import CloudField
+from weather_ecs.systems.course import Course
 from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.strikes import StrikeField
@@ -40,7 +41,8 @@ _NAMES = {
     for name, kind in SNAPSHOT_COMPONENTS.items()
 }
 _PARTS = {
-    "clock", "clouds", "entities", "fronts", "lightning", "next_uid", "rng", "seed", "snow", "wetness",
+    "clock", "clouds", "course", "entities", "fronts", "lightning", "next_uid", "rng", "seed",
+    "snow", "wetness",
 }  # fmt: skip
 
 
@@ -58,6 +60,7 @@ class Loaded(NamedTuple):
     rng: np.random.Generator
     clock: Clock
     clouds: CloudField
+    course: Course | None
     fronts: RainFronts
     strikes: StrikeField
     next_uid: int
@@ -120,6 +123,7 @@ def capture(state: WeatherState) -> dict[str, Any]:
     return {
         "clock": state.clock.state(),
         "clouds": state.clouds.state(),
+        "course": None if state.course is None else state.course.state(),
         "entities": [[uid, entities[uid]] for uid in sorted(entities)],
         "fronts": state.fronts.state(),
         "lightning": state.strikes.state(),
@@ -162,6 +166,7 @@ def _load(document: dict[str, Any]) -> Loaded:
         rng=_generator(document["rng"]),
         clock=Clock.from_state(document["clock"]),
         clouds=CloudField.from_state(document["clouds"], seed),
+        course=None if document["course"] is None else Course.from_state(document["course"]),
         fronts=RainFronts.from_state(document["fronts"]),
         strikes=StrikeField.from_state(document["lightning"]),
         next_uid=next_uid,
@@ -206,6 +211,7 @@ def apply(state: WeatherState, loaded: Loaded) -> None:
     state.rng = loaded.rng
     state.clock = loaded.clock
     state.clouds = loaded.clouds
+    state.course = loaded.course
     state.fronts = loaded.fronts
     state.strikes = loaded.strikes
     state.wet_ground = loaded.wet_ground

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import esper
 
-from weather_ecs import cloud_world, snapshot
+from weather_ecs import cloud_world, snapshot, weathers
 from weather_ecs.cloud_files import CloudFile, load_clouds, save_clouds
 from weather_ecs.cloud_presets import find_model
 from weather_ecs.components import Cloud, Observer, Occluder, RainGauge, RippleSurface
@@ -30,12 +30,14 @@ from weather_ecs.systems import ExtractSystem, WeatherProcessor, WeatherState, s
 from weather_ecs.systems.climate import oldest_state
 from weather_ecs.systems.cloud_models import ModelBook
 from weather_ecs.systems.cloud_rain import remove_all
+from weather_ecs.systems.course import LONGEST
 from weather_ecs.systems.gauge import GaugeBoard
 from weather_ecs.systems.lightning import called as call_strike
 from weather_ecs.systems.queries import in_world, living
 from weather_ecs.systems.rain_view import RainView
 from weather_ecs.systems.shelter import ShelterIndex
 from weather_ecs.systems.thing_snow import ThingSnow
+from weather_ecs.weathers import WeatherNow, WholeWeather
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -44,12 +46,16 @@ if TYPE_CHECKING:
     from weather_ecs.gpu.renderer import Renderer
     from weather_ecs.gpu.ripple_map import RippleMap
     from weather_ecs.gpu.weather_air import WeatherAir
+    from weather_ecs.gpu.weather_sky import WeatherSky
     from weather_ecs.gpu.wetness_map import WetnessMap
+    from weather_ecs.metar import MetarReport
 
 BACKENDS = ("auto", "compute", "feedback")
 
 _check_seed = integer(0, 2**63 - 1)
 _check_position = vector(3, -FAR, FAR)
+_check_center = vector(2, -FAR, FAR)
+_check_transition = number(0.0, LONGEST)
 _check_current = number(LEAST_CURRENT, GREATEST_CURRENT)
 
 
@@ -184,6 +190,43 @@ class Weather:
         self._extract.run(self._state)
         self._stats.time = self._state.clock.time
 
+    def change_to(
+        self, weather: str | WholeWeather, transition: float = 30.0, *, center: Any = (0.0, 0.0)
+    ) -> None:
+        """Let one of `presets.WEATHERS`, or a weather of the game's own, come in so many seconds.
+
+        Everything glides there from where it is, also out of the midst of another transition; the
+        first weather stands at once. New clouds and rain lie round `center`, (x, z) in metres. See
+        docs/weathers.md. Raises InvalidValueError, and changes nothing, for a bad value.
+        """
+        self._check_open()
+        whole = weathers.find(weather)
+        seconds = _check_transition("transition", transition)
+        x, z = _check_center("center", center)
+        with in_world(self._world):
+            weathers.begin(self._state, whole, seconds, (x, z))
+
+    def apply_metar(
+        self, text: str, transition: float = 30.0, *, center: Any = (0.0, 0.0)
+    ) -> MetarReport:
+        """Let the weather of a METAR report come; returns what was understood of it and what not.
+
+        Needs the extra `metar`. Raises MissingExtraError without it, MetarError, and changes
+        nothing, for a text that is no sound report, InvalidValueError for other bad values.
+        """
+        self._check_open()
+        from weather_ecs.metar import read_metar
+
+        report = read_metar(text)
+        self.change_to(report.weather, transition, center=center)
+        return report
+
+    @property
+    def whole(self) -> WeatherNow | None:
+        """The whole weather as it is now; None before `change_to` and `apply_metar`."""
+        with in_world(self._world):
+            return weathers.now(self._state)
+
     def load(self, path: str | os.PathLike[str]) -> tuple[int, ...]:
         """Add the models, clouds, layers and climate of a file to the world; returns the entities.
 
@@ -294,6 +337,20 @@ class Weather:
         with _current(self._window):
             return self._ready_renderer().cloud_shadow(self._keys.key(observer))
 
+    def sky(self, *, observer: Observer | None = None) -> WeatherSky:
+        """The sky's light by direction, for a game's own shaders: see `sky.glsl`.
+
+        The same object for good, whoever observes; what it binds is what the last draw left.
+        Raises ContextError without OpenGL.
+        """
+        self._check_open()
+        if observer is not None and not isinstance(observer, Observer):
+            raise InvalidValueError("observer", observer, "an Observer component or None")
+        if self._window is None and self._context is None:
+            raise ContextError("this weather was made with neither window nor context")
+        with _current(self._window):
+            return self._ready_renderer().sky()
+
     def snow_on(self, thing: Occluder) -> float:
         """Depth in m of the snow on something that moves, since it was first asked about.
 
@@ -326,7 +383,7 @@ class Weather:
         frame = self._frame()
         rate = RainField(frame.areas, frame.fronts).rate(x, y, z) if len(frame.areas) else 0.0
         with _current(self._window):
-            return self._ready_renderer().air(self._keys.key(observer), frame, y, rate)
+            return self._ready_renderer().air(self._keys.key(observer), frame, y, rate, (x, z))
 
     def _draw(self, camera: Camera, observer: Observer | None, started: float) -> None:
         frame = self._frame()
@@ -383,6 +440,7 @@ class Weather:
                 if esper.get_processor(WeatherProcessor) is self._processor:
                     esper.remove_processor(WeatherProcessor)
                     remove_all(self._state)
+                    weathers.remove_all(self._state)
         renderer, self._renderer = self._renderer, None
         if renderer is None:
             return

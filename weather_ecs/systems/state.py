@@ -12,6 +12,7 @@ from weather_ecs.physics.ground_law import SnowLaw
 from weather_ecs.systems.cloud_field import CloudField
 from weather_ecs.systems.cloud_models import ModelBook
 from weather_ecs.systems.cloud_shapes import ShapeLibrary
+from weather_ecs.systems.course import Course
 from weather_ecs.systems.rain_fronts import RainFronts
 from weather_ecs.systems.strikes import StrikeField
 from weather_ecs.systems.uids import Uids
@@ -25,6 +26,7 @@ class WeatherState:
         "clock",
         "cloud_shapes",
         "clouds",
+        "course",
         "drawn",
         "events",
         "fronts",
@@ -49,6 +51,7 @@ class WeatherState:
         self.clouds = CloudField()
         self.fronts = RainFronts()
         self.strikes = StrikeField()
+        self.course: Course | None = None  # of a whole weather, where the game has asked for one
         self.wet_ground = WetGround()
         self.snow_ground = WetGround(SnowLaw())
         self.step = 0  # the fixed step that the systems are at

@@ -110,8 +110,9 @@ def _trace(at: NDArray, weights: NDArray) -> tuple[Place, NDArray[np.float64]]:
     u, w = part[:, 0], part[:, 1]
     places = np.concatenate([index, index + 1, index + wide, index + wide + 1])
     shares = [(1 - u) * (1 - w), u * (1 - w), (1 - u) * w, u * w]
-    total = np.bincount(places, np.concatenate(shares) * np.tile(weights, 4), wide * deep)
-    return (int(low[0]), int(low[1])), total.reshape(deep, wide)
+    shared = np.concatenate(shares) * np.tile(weights, 4)
+    total = np.bincount(places, shared, wide * deep).astype(np.float64)
+    return (int(low[0]), int(low[1])), np.asarray(total).reshape(deep, wide)
 
 
 def _on_tiles(low: Place, block: NDArray[np.float64]) -> Fallen:
