@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from typing import NamedTuple
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +12,8 @@ from numpy.typing import NDArray
 from weather_ecs.frame import ViewData
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.lightning_bolt import bolt
+from weather_ecs.physics.optics import falling_extinction
+from weather_ecs.physics.rain_field import RainField
 
 DRAW = ProgramKey(vertex="bolt.vert", fragment="bolt.frag")
 MOST = 8  # channels in a picture, the brightest
@@ -19,8 +24,20 @@ GLOW = 420.0  # m, width of the glow
 LEAST, MOST_WIDE = 0.7, 12.0  # pixels, half widths of a channel
 LEAST_GLOW, MOST_GLOW = 14.0, 160.0
 FAINTEST = 1e-3
+SOFT = 200.0  # m below the clouds, in which what shines through rain sets in
+SAMPLES = 12  # of the rain on the way to it
 
 Floats = NDArray[np.float32]
+
+
+class Rain(NamedTuple):
+    """What falls between a camera and lightning."""
+
+    depth: float  # optical
+    top: float  # m, world height: above are the clouds
+
+
+NO_RAIN = Rain(0.0, math.inf)
 
 
 class BoltPass:
@@ -48,22 +65,48 @@ class BoltPass:
         middle = 0.5 * (row["origin"] + row["target"])
         return float(np.linalg.norm(middle - np.array(view.position)))
 
-    def draw(self, view: ViewData) -> None:
-        """The depth test on, depth writes off; blending on. Blending is left as it was found."""
+    def rain(self, view: ViewData) -> Rain | None:
+        """What falls before the brightest channel; None where that hides nothing, or all."""
+        frame = view.frame
+        if not len(frame.areas):
+            return None
+        row = frame.strikes[int(np.argmax(frame.strikes["light"]))]
+        eye = np.array(view.position)
+        end = np.array([row["target"][0], eye[1], row["target"][2]])
+        field = RainField(frame.areas, frame.fronts)
+        lost = 0.0
+        for share in (np.arange(SAMPLES) + 0.5) / SAMPLES:
+            rate = field.rate(*(eye + share * (end - eye)).tolist())
+            lost += falling_extinction(
+                rate * (1.0 - frame.air.snow_share), rate * frame.air.snow_share
+            )
+        depth = lost / SAMPLES * float(np.linalg.norm(end - eye))
+        if depth < 0.02 or HEAT * float(row["light"]) * math.exp(-depth) < 0.02:
+            return None
+        return Rain(depth, float(frame.areas["ceiling"].max()))
+
+    def draw(self, view: ViewData, rain: Rain = NO_RAIN) -> None:
+        """The depth test on, depth writes off; blending on and for straight colours afterwards.
+
+        rain: before it and drawn already; a channel that is bright enough shines through.
+        """
         look = view.frame.lightning
         rotation = np.eye(4)
         rotation[:3, :3] = view.view[:3, :3]
         matrix = (view.projection @ rotation).astype(np.float32)
         self._program["bolt_matrix"].write(matrix.T.tobytes())
         hot, glowing = channels(view)
+        left, top = math.exp(-rain.depth), rain.top - view.position[1]
+        if math.isfinite(top):
+            hot, glowing = (_below(pieces, top) for pieces in (hot, glowing))
         ctx = self._ctx
         if len(glowing) and look.glow > 0.0:
             ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_COLOR
             shape = (GLOW, LEAST_GLOW, MOST_GLOW, 1.0)
-            self._render(glowing, (*look.color, AIR * look.glow), shape)
+            self._render(glowing, (*look.color, AIR * look.glow * left), shape)
         if len(hot):
             ctx.blend_equation = moderngl.MAX
-            self._render(hot, (*look.color, HEAT), (look.width, LEAST, MOST_WIDE, 0.0))
+            self._render(hot, (*look.color, HEAT * left), (look.width, LEAST, MOST_WIDE, 0.0))
             ctx.blend_equation = moderngl.FUNC_ADD
         ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
 
@@ -83,6 +126,13 @@ class BoltPass:
         """Give everything back; twice does no harm."""
         self._array.release()
         self._buffer.release()
+
+
+def _below(pieces: Floats, top: float) -> Floats:
+    """What is under the clouds, without an edge at their base."""
+    for light in (3, 7):
+        pieces[:, light] *= np.clip((top - pieces[:, light - 2]) / SOFT, 0.0, 1.0)
+    return pieces[pieces[:, 3] > 0.0]
 
 
 def channels(view: ViewData) -> tuple[Floats, Floats]:

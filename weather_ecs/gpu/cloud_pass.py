@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import groupby
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import moderngl
 import numpy as np
@@ -31,6 +32,7 @@ from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.cloud_light import Surround
 
 SOFT_HEIGHT = 400.0  # m over the ground, below which billboards are soft where they meet the scene
+INSIDE = 0.5  # of a cloud's reach: what is nearer to its middle is behind its picture
 SOFT_REACH = 1500.0  # m, as far as they are
 STILL = 1.0 / 60.0  # s, that a draw counts for at least: a paused sky still takes over its light
 
@@ -46,6 +48,13 @@ class CloudSettings(Protocol):
     def cloud_tile(self) -> int: ...
     @property
     def cloud_atlas(self) -> int: ...
+
+
+class Between(NamedTuple):
+    """Something that is drawn among the clouds, at its distance from the camera in m."""
+
+    distance: float
+    draw: Callable[[], None]
 
 
 class CloudPass:
@@ -194,10 +203,17 @@ class CloudPass:
         low = height < view.frame.profile.ground + SOFT_HEIGHT * view.frame.cloud_look.softness
         return bool((near & low).any())
 
-    def draw(self, view: ViewData, depth: moderngl.Texture | None, origin: tuple[int, int]) -> None:
+    def draw(
+        self,
+        view: ViewData,
+        depth: moderngl.Texture | None,
+        origin: tuple[int, int],
+        between: Between | None = None,
+    ) -> None:
         """Draw the visible clouds. Blending, the depth test and no depth writes are the caller's.
 
-        depth: the scene's, where billboards may meet it; origin: the viewport's, pixels.
+        depth: the scene's, where billboards may meet it; origin: the viewport's, pixels; between:
+        something that stands among them.
         """
         programs = self._programs
         programs.set_origin(*origin)
@@ -220,21 +236,40 @@ class CloudPass:
             quads[:, 0, 3] *= self._shares[pictures]
             self._quads.write(quads)
             self._quads.texture.use(UNITS["cloud_quads"])
-        row = quad = 0
-        for billboards, group in groupby(kinds.tolist()):
-            count = len(list(group))
-            if billboards:
-                for each in range(row, row + count):
-                    self._render(key, each)
-                row += count
-            else:
-                programs.quads(quad, count)
-                quad += count
+        begins, ends = self._begins[: len(self._real)], self._begins[1 : len(self._real) + 1]
+        if between is None:
+            self._sequence(key, kinds, begins, ends, np.ones(len(which), bool))
+        else:
+            scene = self._scene
+            beyond = scene.away[which] - INSIDE * scene.reach[which] > between.distance
+            middles = begins + self._stream.beyond(scene, self._real, between.distance)
+            self._sequence(key, kinds, begins, middles, beyond)
+            between.draw()
+            self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+            self._sequence(key, kinds, middles, ends, ~beyond)
         if view.frame.cloud_look.rays:
             self._rays.draw(self._scene, self._store, self._real, matrix, self._rows)
         if self._is_inside:
             self._inside.draw(view.projection)
         self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
+
+    def _sequence(
+        self, key: ProgramKey, kinds: NDArray, begins: NDArray, ends: NDArray, shown: NDArray
+    ) -> None:
+        """Draw in order: of each row a stretch of the stream, and the pictures that are shown."""
+        row = quad = 0
+        for billboards, group in groupby(kinds.tolist()):
+            count = len(list(group))
+            if billboards:
+                for each in range(row, row + count):
+                    self._programs.billboards(key, int(begins[each]), int(ends[each]))
+                row += count
+            else:
+                for some, run in groupby(shown[quad : quad + count].tolist()):
+                    length = len(list(run))
+                    if some:
+                        self._programs.quads(quad, length)
+                    quad += length
 
     def _use_textures(self, store: CloudStore, impostors: Impostors) -> None:
         self._programs.images.use(UNITS["cloud_images"])

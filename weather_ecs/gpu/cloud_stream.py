@@ -82,6 +82,21 @@ class CloudStream:
         self._sorted[key] = (shape, eye, found)
         return found
 
+    def beyond(self, scene: CloudScene, which: NDArray[np.intp], distance: float) -> NDArray:
+        """(m,) how many of the first billboards of clouds `which` are farther off than that, m."""
+        away, reach = scene.away[which], scene.reach[which]
+        counts = np.zeros(len(which), np.intp)
+        for k, index in enumerate(which.tolist()):
+            if away[k] + reach[k] <= distance:
+                continue
+            shape, eye, order = self._sorted[int(scene.clouds["key"][index])]
+            counts[k] = len(order)
+            if away[k] - reach[k] < distance:
+                way = shape.position[order - shape.first] - eye.astype(np.float32)
+                far = np.sqrt(np.einsum("ij,ij->i", way, way)) * scene.clouds["scale"][index]
+                counts[k] = np.count_nonzero(far > distance)
+        return counts
+
     def forget_unused(self) -> None:
         """Drop the orders of clouds that were not drawn since the last call."""
         if len(self._sorted) > len(self._used):

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from weather_ecs.frame import FrameData
 from weather_ecs.physics.lightning import CHANNEL, falloff
 
-HAZE = 0.35  # share of the light at the camera that the fog there shows
-VEIL = 0.5  # and that rain shows so deep that nothing shines through
+HAZE = 0.12  # share of the light at the camera that the fog there shows
+VEIL = 0.15  # and that rain shows so deep that nothing shines through
 CLOUD_LIGHTS = 4  # flashes that light clouds each from its own place
 CLOUD_CORE = 1100.0  # m, within which a flash in a cloud does not fall off
 CLOUD_GAIN = 1.2  # of a flash's light, next to it
