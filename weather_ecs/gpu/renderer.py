@@ -10,7 +10,8 @@ import numpy as np
 from weather_ecs.errors import ContextError, InvalidValueError
 from weather_ecs.frame import FrameData, GaugeReading, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
-from weather_ecs.gpu.cloud_pass import CloudPass, CloudSettings
+from weather_ecs.gpu.bolt_pass import NO_RAIN, BoltPass, Rain
+from weather_ecs.gpu.cloud_pass import Between, CloudPass, CloudSettings
 from weather_ecs.gpu.cloud_shadow import CloudShadow
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.depth import DepthCopy
@@ -100,6 +101,7 @@ class Renderer:
         self._gauges = keep(GaugePass(ctx, shaders, rain))
         self._wetness = keep(WetnessPass(ctx, gl, shaders))
         self._clouds = keep(CloudPass(ctx, shaders))
+        self._bolts = keep(BoltPass(ctx, shaders))
         self._fog = keep(FogPass(ctx, shaders))
         self._veil = keep(VeilPass(ctx, shaders))
         self._view_block = keep(BlockBuffer(ctx, RAIN_VIEW))
@@ -136,14 +138,19 @@ class Renderer:
         with self._guard:
             return self._wetness.map(key)
 
-    def air(self, key: int, frame: FrameData, y: float, rate: float) -> WeatherAir:
-        """The air round an observer at the height y, where it rains or snows at a rate (mm/h)."""
+    def air(
+        self, key: int, frame: FrameData, y: float, rate: float, place: tuple[float, float]
+    ) -> WeatherAir:
+        """The air round an observer at the height y, where it rains or snows at a rate (mm/h).
+
+        place: (x, z), m.
+        """
         air = self._airs.get(key)
         if air is None or air.stale(frame, y, rate):
             with self._guard:
                 if air is None:
                     air = self._airs[key] = WeatherAir(self._ctx)
-                air.fill(frame, y, rate)
+                air.fill(frame, y, rate, place)
         return air
 
     def cloud_shadow(self, key: int = 0) -> CloudShadow:
@@ -173,8 +180,9 @@ class Renderer:
         wet_map = self._wetness.needs_map(view)
         wets = wet_map or self._wetness.needs_update(view)
         fog = self._fog.draws(view)
-        clouds = self._clouds.draws(view)
-        if not (view.containers or view.veils or view.frame.ripples or wets or fog or clouds):
+        clouds, bolts = self._clouds.draws(view), self._bolts.draws(view)
+        sky = fog or clouds or bolts
+        if not (view.containers or view.veils or view.frame.ripples or wets or sky):
             return
         with self._guard as guard:
             viewport = guard.viewport
@@ -206,9 +214,13 @@ class Renderer:
             guard.bind_framebuffer()
             self._draw_fog(view)
             if clouds:
-                self._draw_clouds(view, viewport)
+                self._draw_clouds(view, viewport, bolts)
+            elif bolts:
+                self._draw_bolts(view, NO_RAIN)
             self._draw_ripples(view)
             self._draw_veils(view)
+            if bolts and view.veils:
+                self._draw_bolts(view, self._bolts.rain(view))
             self._draw_splashes(view, sheltered)
             self._draw_drops(view)
             self._timer.end()
@@ -255,11 +267,23 @@ class Renderer:
         self._gl.glDepthMask(0)
         self._ripples.draw(view, depth)
 
-    def _draw_clouds(self, view: ViewData, viewport: tuple[int, int, int, int]) -> None:
+    def _draw_clouds(
+        self, view: ViewData, viewport: tuple[int, int, int, int], bolts: bool
+    ) -> None:
         depth = self._copy_depth() if self._clouds.meets_scene(view) else None
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
-        self._clouds.draw(view, depth, viewport[:2])
+        among = None
+        if bolts:
+            among = Between(self._bolts.distance(view), lambda: self._bolts.draw(view))
+        self._clouds.draw(view, depth, viewport[:2], among)
+
+    def _draw_bolts(self, view: ViewData, rain: Rain | None) -> None:
+        if rain is None:
+            return
+        self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
+        self._gl.glDepthMask(0)
+        self._bolts.draw(view, rain)
 
     def _draw_fog(self, view: ViewData) -> None:
         if not self._fog.draws(view):
