@@ -47,16 +47,26 @@ class StormPlay:
 
 
 class SnowPlay:
-    """A cold grey day on which it begins to snow, snows until all is white, and stops."""
+    """A cold grey day on which it begins to snow, snows until all is white, and stops.
 
-    BEGINS, FULL, EASES, ENDS = 0.10, 0.20, 0.70, 0.80  # shares of the tour
+    Flakes need most of a minute from their cloud to the ground: while snow comes and goes a short
+    tour is a time-lapse, and in between it snows at its own speed.
+    """
+
+    BEGINS, FULL, EASES, ENDS = 0.08, 0.12, 0.66, 0.70  # shares of the tour
+    CALM = 0.48, 0.66  # shares between which the weather runs at its own speed
+    BEFORE, AFTER = 110.0, 90.0  # s of weather before and after that
     DEPTH = 0.030  # m that lie at the end
     GROWS = 0.035 / 3600.0  # m/s, by which 3.5 mm/h of water grow deep where nothing is hastened
 
     def __init__(self, duration: float) -> None:
         self._duration = duration
-        snows = 0.5 * (self.EASES + self.ENDS - self.BEGINS - self.FULL) * duration
-        self._settling = min(max(self.DEPTH / (self.GROWS * snows), 1.0), 100.0)
+        begin, end = self.CALM
+        self._before = min(max(self.BEFORE / (begin * duration), 1.0), 900.0)
+        self._after = min(max(self.AFTER / ((1.0 - end) * duration), 1.0), 900.0)
+        passed = (begin - self.BEGINS) * self._before + (end - begin)
+        passed += (self.ENDS - end) * self._after
+        self._settling = min(max(self.DEPTH / (self.GROWS * passed * duration), 1.0), 100.0)
 
     def at(self, time: float, wind_heading: float) -> Turn:
         """The weather at `time` s of the tour."""
@@ -68,4 +78,6 @@ class SnowPlay:
             max((self.ENDS - u) / (self.ENDS - self.EASES), 0.0),
             1.0,
         )
-        return Turn(blend(rests, snows, share), "heavy_snow", settling=self._settling)
+        begin, end = self.CALM
+        speed = self._before if u < begin else self._after if u > end else 1.0
+        return Turn(blend(rests, snows, share), "heavy_snow", speed, settling=self._settling)
