@@ -169,7 +169,7 @@ class Stage:
         self.block.bind()
         self.ctx.enable_only(moderngl.CULL_FACE)
         self.ctx.front_face, self.ctx.cull_face = "ccw", "front"
-        self.veils.draw(view, texture)
+        self.veils.draw(view, view.veils, texture)
         self.ctx.cull_face = "back"
         self.target.viewport = (0, 0, 160, 90)
         pixels = np.frombuffer(self.target.read(components=4, dtype="f4"), np.float32)

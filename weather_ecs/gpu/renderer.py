@@ -213,12 +213,13 @@ class Renderer:
                 self.stats.update(self._clouds.stats)
             guard.bind_framebuffer()
             self._draw_fog(view)
+            self._draw_veils(view, below=True)
             if clouds:
                 self._draw_clouds(view, viewport, bolts)
             elif bolts:
                 self._draw_bolts(view, NO_RAIN)
             self._draw_ripples(view)
-            self._draw_veils(view)
+            self._draw_veils(view, below=False)
             if bolts and view.veils:
                 self._draw_bolts(view, self._bolts.rain(view))
             self._draw_splashes(view, sheltered)
@@ -293,8 +294,11 @@ class Renderer:
         self._gl.glDepthMask(0)
         self._fog.draw(view, depth)
 
-    def _draw_veils(self, view: ViewData) -> None:
-        if not view.veils:
+    def _draw_veils(self, view: ViewData, *, below: bool) -> None:
+        """Of the rain that ends below the camera, or of the rest: a cloud hides what it drops."""
+        y = view.position[1]
+        veils = [veil for veil in view.veils if (veil.span[1] < y) is below]
+        if not veils:
             return
         depth = self._copy_depth()
         ctx, gl = self._ctx, self._gl
@@ -302,7 +306,7 @@ class Renderer:
         # The far sides: they are in the picture wherever the camera stands.
         ctx.front_face, ctx.cull_face = "ccw", "front"
         gl.glDepthMask(0)
-        self._veil.draw(view, depth)
+        self._veil.draw(view, veils, depth)
         ctx.cull_face = "back"
 
     def _draw_splashes(self, view: ViewData, sheltered: bool) -> None:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from weather_ecs.frame import FrameData, ViewData
+from weather_ecs.frame import FrameData, VeilData, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.flake_blocks import flake_light
+from weather_ecs.gpu.flash import VEIL as VEIL_FLASH
+from weather_ecs.gpu.flash import flash_of
 from weather_ecs.gpu.rain_blocks import VEIL
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.view_block import encode, veil_light
@@ -27,20 +31,25 @@ class VeilPass:
         self._array = ctx.vertex_array(self._program, [])
         self._block = BlockBuffer(ctx, VEIL)
 
-    def draw(self, view: ViewData, depth: moderngl.Texture) -> None:
-        """Depth test off, culling of front faces and blending on are the caller's."""
+    def draw(self, view: ViewData, veils: Sequence[VeilData], depth: moderngl.Texture) -> None:
+        """Draw some of the view's.
+
+        Depth test off, culling of front faces and blending on are the caller's.
+        """
         depth.use(DEPTH_UNIT)
         self._block.bind()
         data = self._block.data
-        rain = encode(veil_light(view.frame.sky))
-        for veil in view.veils:
+        flash = flash_of(view.frame, view.position)
+        more = np.zeros(3) if flash is None else VEIL_FLASH * flash.here
+        rain = encode(veil_light(view.frame.sky) + more)
+        for veil in veils:
             data["veil_axis"] = veil.axis
             data["veil_shape"] = (*veil.shape, 0.0)
             data["veil_span"] = (*veil.span, 0.0, 0.0)
             data["veil_load"] = (veil.extinction, veil.shown, veil.slope, 0.0)
             data["veil_dry"] = veil.dry
             snow = veil.snow
-            data["veil_tint"][:3] = encode(mixed(view.frame, snow)) if snow > 0.0 else rain
+            data["veil_tint"][:3] = encode(mixed(view.frame, snow) + more) if snow > 0.0 else rain
             self._block.upload()
             self._array.render(moderngl.TRIANGLE_STRIP, vertices=14)
 
