@@ -23,11 +23,12 @@ LAYERS: dict[str, tuple[set[str], set[str]]] = {
         {"errors", "components", "physics", "frame", "gpu", "clock"},
     ),
     "weather": ({"numpy", "esper", "pyglet"}, {"*"}),
+    "metar": ({"metar"}, {"*"}),
 }
 # Every other module of the package: clock, snapshot, stats and their like.
 ELSEWHERE: tuple[set[str], set[str]] = ({"numpy", "esper"}, {"*"})  # all but gpu
 USERS = ("demo_game", "benchmarks", "editor", f"{PACKAGE}/editor")
-PUBLIC = {PACKAGE, *(f"{PACKAGE}.{name}" for name in ("components", "presets", "errors"))}
+PUBLIC = {PACKAGE, *(f"{PACKAGE}.{name}" for name in ("components", "presets", "errors", "events"))}
 LOADER = "gpu/shader_source.py"  # writes the version line that shader files do not hold
 
 

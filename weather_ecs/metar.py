@@ -12,19 +12,16 @@ import warnings
 from typing import Any, NamedTuple
 
 from weather_ecs.errors import MetarError, MissingExtraError, shorten
-from weather_ecs.metar_falls import Falls, take
-from weather_ecs.metar_sky import OKTAS, CloudGroup, bank_of
-from weather_ecs.physics.optics import CONTRAST, falling_extinction
-from weather_ecs.physics.phase import share_at
-from weather_ecs.weathers import MOST_BANKS, WholeWeather
+from weather_ecs.metar_falls import take
+from weather_ecs.metar_sky import OKTAS, CloudGroup
+from weather_ecs.metar_weather import FAR, Observed, humidity, weather_of
+from weather_ecs.weathers import WholeWeather
 
 LONGEST = 2000  # characters of a report
 FASTEST = 100.0  # m/s, more has never been measured at an airport
 COLDEST, HOTTEST = -95.0, 62.0  # degrees Celsius, beyond what was ever measured at the ground
 HIGHEST = 20_000.0  # m, of a cloud's base
-FAR = 30_000.0  # m of visibility where a report says ten kilometres or more
 FOOT = 0.3048
-BLOWING = 8.0  # m/s at 10 m above which dry snow is blown (Li and Pomeroy 1997)
 KNOT, KMH = 0.514444, 1.0 / 3.6
 
 _TREND = ("NOSIG", "BECMG", "TEMPO", "FCST", "INTER")
@@ -83,8 +80,8 @@ def read_metar(text: Any) -> MetarReport:
     reader.read()
     if not reader.understood:
         raise MetarError(f"the report of {station} says nothing of the weather: {shorten(text)}")
-    unused += reader.unused
-    weather = reader.weather(f"{station} {time} UTC")
+    weather, changed = weather_of(f"{station} {time} UTC", reader.observed)
+    unused += [*reader.unused, *[Unused(*each) for each in changed]]
     return MetarReport(
         " ".join(str(text).split()), station, time, tuple(reader.understood), tuple(unused), weather
     )
@@ -153,12 +150,7 @@ class _Reader:
         self._parsed, self._words, self._precise = parsed, words, precise
         self.understood: list[Understood] = []
         self.unused: list[Unused] = []
-        self._fields: dict[str, Any] = {}
-        self._falls = Falls()
-        self._clouds: list[CloudGroup] = []
-        self._visibility: float | None = None
-        self._temperature: float | None = None
-        self._dew_point: float | None = None
+        self.observed = Observed()
 
     def read(self) -> None:
         """Read all groups."""
@@ -167,7 +159,7 @@ class _Reader:
         for intensity, desc, falling, sight, other in self._parsed.weather:
             parts = [part or "" for part in (intensity, desc, falling, sight, other)]
             if any(part.strip("/") for part in parts[1:]):
-                words = take(self._falls, *parts)
+                words = take(self.observed.falls, *parts)
                 self.understood.append(Understood("weather", words, "", "".join(parts)))
         self._sky()
         self._air()
@@ -215,11 +207,11 @@ class _Reader:
             a, b = first.value(), last.value()
             self._add("wind_varies", f"{a:.0f} to {b:.0f}", "degrees")
             fields["veer"] = min(math.radians((b - a) % 360.0) * 0.5, math.pi)
-        self._fields |= fields
+        self.observed.fields |= fields
 
     def _sight(self) -> None:
         if "CAVOK" in self._words:
-            self._visibility = FAR
+            self.observed.visibility = FAR
             self._add("visibility", 10_000.0, "m", "or more: CAVOK")
             return
         found = [v for v in (self._parsed.vis, self._parsed.max_vis) if v is not None]
@@ -228,7 +220,7 @@ class _Reader:
         value = min(each.value("M") for each in found)
         known = any(word.endswith("SM") for word in self._words)
         most = value >= 9999.0 or (known and value >= 9600.0)
-        self._visibility = FAR if most else value
+        self.observed.visibility = FAR if most else value
         note = "or more" if most else "the least of its directions" if len(found) > 1 else ""
         self._add("visibility", round(value, 1), "m", note)
 
@@ -242,13 +234,13 @@ class _Reader:
                 continue
             if amount not in OKTAS:
                 if kind in ("CB", "TCU"):
-                    self._clouds.append(CloudGroup("FEW", None, kind))
+                    self.observed.clouds.append(CloudGroup("FEW", None, kind))
                     self._add("clouds", kind, "", "amount and base not reported")
                 continue
             base = None if height is None else height.value("FT") * FOOT
             if base is not None and base > HIGHEST:
                 raise MetarError(f"no base of a cloud: {base:.0f} m, allowed: to {HIGHEST:g} m")
-            self._clouds.append(CloudGroup(amount, base, kind or ""))
+            self.observed.clouds.append(CloudGroup(amount, base, kind or ""))
             feet = "base not reported" if height is None else f"{height.value('FT'):.0f} ft"
             self._add("clouds", f"{amount} {kind or ''}".strip(), f"at {feet}")
         if "CAVOK" in self._words:
@@ -268,85 +260,10 @@ class _Reader:
                 )
         if t is not None:
             self._add("temperature", round(t, 1), "degrees Celsius")
-            self._temperature = t
+            self.observed.temperature = t
         if t is not None and dew is not None:
-            self._dew_point = min(dew, t)
+            self.observed.dew_point = min(dew, t)
             self._add("dew_point", round(dew, 1), "degrees Celsius")
-            self._add("humidity", round(humidity(t, self._dew_point), 3), "", "of the two")
+            self._add("humidity", round(humidity(t, self.observed.dew_point), 3), "", "of the two")
         if parsed.press is not None:
             self.unused.append(Unused(f"{parsed.press.value('HPA'):.0f} hPa", "pressure"))
-
-    def weather(self, name: str) -> WholeWeather:
-        """The weather that the report describes."""
-        falls = self._falls
-        wet = falls.rate > 0.0
-        t = self._temperature
-        if t is None:
-            t = -2.0 if falls.frozen else 15.0
-        damp = 0.95 if wet else 0.7
-        if self._dew_point is not None:
-            damp = humidity(t, self._dew_point)
-        rate = falls.rate if not (falls.thunder and wet) else max(falls.rate, 8.0)
-        adjusted = _to_fall(t, damp, falls.frozen) if falls.frozen or falls.liquid else t
-        if adjusted != t:
-            what = "snow" if falls.frozen else "rain"
-            self.unused.append(Unused(f"{t:g} degrees", f"{adjusted:.1f}, at which {what} falls"))
-        frozen = share_at(adjusted, damp)
-        sight = self._visibility
-        if sight is None:
-            sight = falls.sight if falls.sight is not None else FAR
-        if falls.blowing_snow and self._fields.get("wind_speed", 0.0) > BLOWING:
-            # The flux of blown snow rises with the cube of the wind and more (Pomeroy and Gray).
-            sight = min(sight, 5000.0 * (BLOWING / self._fields["wind_speed"]) ** 3)
-        most = CONTRAST / max(sight, 1.0)
-        known = rate
-        while (
-            rate > 0.2 * known and falling_extinction(rate * (1.0 - frozen), rate * frozen) > most
-        ):
-            rate *= 0.95  # so much would hide more than is reported
-        rain, snow = rate * (1.0 - frozen), rate * frozen
-        lost = max(CONTRAST / max(sight, 1.0) - falling_extinction(rain, snow), CONTRAST / 50_000.0)
-        groups = sorted(self._clouds, key=lambda g: g.base or 0.0)[:MOST_BANKS]
-        banks = tuple([bank_of(group, falls.kind) for group in groups])
-        open_sky = math.prod([1.0 - OKTAS[group.amount] / 8.0 for group in groups])
-        if falls.thunder and not any(group.kind == "CB" for group in groups):
-            groups_left = banks[: MOST_BANKS - 1]
-            banks = (*groups_left, bank_of(CloudGroup("SCT", 900.0, "CB"), falls.kind))
-        overcast = 1.0 - open_sky
-        state = 0.7 * overcast + (0.15 if wet else 0.0)
-        if falls.thunder:
-            state = max(state, 0.6 + 0.4 * falls.thunder)
-        return WholeWeather(
-            name,
-            min(state, 1.0),
-            rain_rate=rate,
-            rain_radius=4000.0 if falls.showers else 8000.0,
-            temperature=adjusted,
-            humidity=damp,
-            visibility=CONTRAST / lost,
-            lightning=falls.thunder,
-            overcast=overcast,
-            haze=0.7 if falls.haze else min(max(1.0 - math.log10(sight / 500.0) / 2.0, 0.1), 0.9),
-            banks=banks,
-            **{"wind_speed": 0.0, **self._fields},
-        )
-
-
-def humidity(temperature: float, dew_point: float) -> float:
-    """Relative humidity, 0 to 1, of two temperatures in degrees Celsius.
-
-    Magnus's formula with the constants of Alduchov and Eskridge (1996).
-    """
-    over = 17.625 * dew_point / (243.04 + dew_point) - 17.625 * temperature / (243.04 + temperature)
-    return min(max(math.exp(over), 0.0), 1.0)
-
-
-def _to_fall(temperature: float, damp: float, frozen: bool) -> float:
-    """The nearest temperature at which what was reported falls so, in tenths of a degree."""
-    step = -0.1 if frozen else 0.1
-    for k in range(400):
-        t = round(temperature + k * step, 1) if k else temperature
-        share = share_at(t, damp)
-        if (share > 0.9) if frozen else (share < 0.1):
-            return t
-    return temperature

@@ -12,6 +12,8 @@ from weather_ecs.cloud_presets import sky as sky
 from weather_ecs.components import Air, Fog, RainArea, Wind
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.weathers import WEATHERS as WEATHERS  # whole ones, for Weather.change_to
+from weather_ecs.weathers import CloudBank as CloudBank
+from weather_ecs.weathers import WholeWeather as WholeWeather
 
 
 @dataclass(frozen=True, slots=True)

@@ -50,7 +50,9 @@ def begin(
     end = end._replace(wind_heading=start.wind_heading + turned)
     course = Course(name, start, end, now, steps)
     entities: dict[str, int] = {}
-    if before is not None:
+    if before is None:
+        course.stage = CLEARED
+    else:
         course.rates = before.rates_at(now)
         known = {uid: entity for entity, uid in state.uids.current().items()}
         for what, uid in before.owned.items():
