@@ -12,7 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
-from weather_ecs.frame import SNOW, ContainerData, FrameData, VeilData, ViewData
+from weather_ecs.frame import SNOW, ContainerData, FrameData, ViewData
 from weather_ecs.physics.camera import Camera
 from weather_ecs.physics.container import (
     Area,
@@ -21,10 +21,11 @@ from weather_ecs.physics.container import (
     births,
     place,
 )
-from weather_ecs.physics.front import NO_FRONTS, SETTLED, steepness, water_arrived
+from weather_ecs.physics.front import NO_FRONTS, SETTLED, water_arrived
 from weather_ecs.physics.rain_step import axis_of, shape_of
 from weather_ecs.systems.drop_shares import importances
-from weather_ecs.systems.falls import Fall, falls, shown_distance, snow_shown_distance
+from weather_ecs.systems.falls import Fall, falls
+from weather_ecs.systems.rain_veils import veils
 from weather_ecs.systems.scene_floor import SceneFloor
 
 # A drop count's last tenth fades in, so that a changing count never makes a drop appear at once.
@@ -97,6 +98,7 @@ class RainView:
         seen.air_run = _air_run(seen.air_run, frame, min(dt, 1.0))
         containers = self._containers(frame, camera, seen, settings, min(dt, 1.0))
         veiled = settings.veil and frame.look.veil > 0.0
+        placed = {area: each.container for area, each in seen.placed.items()}
         return ViewData(
             frame=frame,
             key=key,
@@ -106,7 +108,7 @@ class RainView:
             velocity=seen.velocity,
             dt=min(dt, _LONGEST_STEP),
             containers=tuple(containers),
-            veils=tuple(self._veils(frame, seen, containers)) if veiled else (),
+            veils=tuple(veils(frame, placed, containers, camera.position[1])) if veiled else (),
             air_run=seen.air_run,
         )
 
@@ -221,55 +223,6 @@ class RainView:
             self._births[capacity, number] = record
         return record
 
-    def _veils(
-        self, frame: FrameData, seen: _Observed, containers: list[ContainerData]
-    ) -> list[VeilData]:
-        # Of a front half as high as a container is near flat ground.
-        counts = {
-            (c.area, c.kind): c.count * frame.look.height / c.shape[3]
-            for c in containers
-            if not c.key & 1
-        }
-        look = frame.look
-        veils = []
-        for row in frame.areas:
-            rate, key = float(row["rain_rate"]), int(row["key"])
-            placed = seen.placed.get(key)
-            if placed is None or not placed.container.visible:
-                continue
-            container = placed.container
-            a, b = row["radii"].tolist()
-            soft = min(float(row["soft_edge"]), b)
-            h, ceiling = float(row["heading"]), float(row["ceiling"])
-            shown = lost = snow = 0.0
-            near = max(0.0, 1.0 - container.distance / look.reach)
-            for fall in falls(rate, frame.air, frame.flakes):
-                count = round(counts.get((key, fall.kind), 0.0))
-                if fall.kind == SNOW:
-                    snow = fall.part
-                    lost += fall.extinction * frame.flakes.veil
-                    if count and near:
-                        far = snow_shown_distance(look, frame.flakes, fall, count)
-                        shown += near * fall.part * far
-                else:
-                    lost += fall.extinction * look.veil
-                    if count and near:
-                        far = shown_distance(look, round(fall.rate, 1), count)
-                        shown += near * fall.part * far
-            veils.append(
-                VeilData(
-                    axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
-                    shape=(a, b, min((1.0 - soft / b) ** 2, 0.9999)),
-                    span=(min(container.bottom, seen.position[1]) - 300.0, ceiling),
-                    dry=self._fronts.get(key, SETTLED),
-                    slope=steepness(rate),
-                    extinction=lost,
-                    shown=shown,
-                    snow=snow,
-                )
-            )
-        return veils
-
 
 def _velocity(
     seen: _Observed, position: tuple[float, float, float], dt: float
@@ -289,9 +242,8 @@ def _air_run(
     """How far the air has gone and its eddies have turned, m; a sum, so that no change of the wind
     puts them elsewhere."""
     x, z, turned = run
-    return (
-        x + frame.wind[0] * dt, z + frame.wind[2] * dt, turned + frame.profile.turbulence * dt
-    )  # fmt: skip
+    wind, turning = frame.wind, frame.profile.turbulence
+    return x + wind[0] * dt, z + wind[2] * dt, turned + turning * dt
 
 
 def _in_view(areas: np.ndarray, camera: Camera) -> np.ndarray:

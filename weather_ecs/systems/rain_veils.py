@@ -1,0 +1,72 @@
+"""Veils: the rain of an area beyond what its drops show."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+
+import numpy as np
+
+from weather_ecs.frame import SNOW, ContainerData, FrameData, VeilData
+from weather_ecs.physics.container import Container
+from weather_ecs.physics.front import SETTLED, steepness
+from weather_ecs.systems.falls import falls, shown_distance, snow_shown_distance
+
+_BELOW = 300.0  # m under the container and the eye to which a veil hangs
+
+
+def veils(
+    frame: FrameData,
+    placed: Mapping[int, Container],
+    containers: Iterable[ContainerData],
+    eye: float,
+) -> Iterator[VeilData]:
+    """Veils of the areas whose containers, by key, are in view; `eye` is the observer's height."""
+    # Of a front half as high as a container is near flat ground.
+    counts = {
+        (c.area, c.kind): c.count * frame.look.height / c.shape[3]
+        for c in containers
+        if not c.key & 1
+    }
+    for row in frame.areas:
+        container = placed.get(int(row["key"]))
+        if container is not None and container.visible:
+            yield _veil(frame, row, container, counts, eye)
+
+
+def _veil(
+    frame: FrameData,
+    row: np.void,
+    container: Container,
+    counts: Mapping[tuple[int, int], float],
+    eye: float,
+) -> VeilData:
+    look, rate, key = frame.look, float(row["rain_rate"]), int(row["key"])
+    a, b = row["radii"].tolist()
+    soft = min(float(row["soft_edge"]), b)
+    h, ceiling = float(row["heading"]), float(row["ceiling"])
+    shown = lost = snow = 0.0
+    near = max(0.0, 1.0 - container.distance / look.reach)
+    for fall in falls(rate, frame.air, frame.flakes):
+        count = round(counts.get((key, fall.kind), 0.0))
+        if fall.kind == SNOW:
+            snow = fall.part
+            lost += fall.extinction * frame.flakes.veil
+            if count and near:
+                far = snow_shown_distance(look, frame.flakes, fall, count)
+                shown += near * fall.part * far
+        else:
+            lost += fall.extinction * look.veil
+            if count and near:
+                far = shown_distance(look, round(fall.rate, 1), count)
+                shown += near * fall.part * far
+    return VeilData(
+        axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
+        shape=(a, b, min((1.0 - soft / b) ** 2, 0.9999)),
+        span=(min(container.bottom, eye) - _BELOW, ceiling),
+        dry=frame.fronts.get(key, SETTLED),
+        slope=steepness(rate),
+        extinction=lost,
+        shown=shown,
+        snow=snow,
+    )
