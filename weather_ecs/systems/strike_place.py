@@ -46,6 +46,6 @@ def surfaces_below(triangles: NDArray, x: float, z: float) -> NDArray[np.float64
     with np.errstate(divide="ignore", invalid="ignore"):
         s = (px * v[:, 2] - pz * v[:, 0]) / twice
         t = (u[:, 0] * pz - u[:, 2] * px) / twice
-    hit = (s >= 0.0) & (t >= 0.0) & (s + t <= 1.0) & (twice != 0.0)
+        hit = (s >= 0.0) & (t >= 0.0) & (s + t <= 1.0) & (twice != 0.0)
     height = a[hit, 1] + s[hit] * u[hit, 1] + t[hit] * v[hit, 1]
     return np.stack([np.full(len(height), x), height, np.full(len(height), z)], axis=1)
