@@ -29,7 +29,7 @@ def radiance(altitude: float) -> NDArray[np.float64]:
     up, away = atmosphere.table_directions()
     h = math.radians(altitude)
     cosine = np.sqrt(1.0 - up * up) * np.cos(away) * math.cos(h) + up * math.sin(h)
-    return sky.air + sky.haze * atmosphere.haze_phase(cosine)[..., None]
+    return sky.air + sky.haze / daylight.HAZE_SHARE * atmosphere.haze_phase(cosine)[..., None]
 
 
 def test_phase_functions_scatter_all_there_is() -> None:

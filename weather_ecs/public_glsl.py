@@ -7,7 +7,7 @@ from importlib import resources
 
 from weather_ecs.errors import InvalidValueError
 
-PUBLIC = ("cloud_shadow.glsl", "ripple_sample.glsl", "weather.glsl", "wetness.glsl")
+PUBLIC = ("cloud_shadow.glsl", "ripple_sample.glsl", "sky.glsl", "weather.glsl", "wetness.glsl")
 
 
 @cache
@@ -15,6 +15,7 @@ def glsl(name: str) -> str:
     """Text of one of the package's public includes, without `#version`, to be pasted in.
 
     `cloud_shadow.glsl`: see `Weather.cloud_shadow`; `ripple_sample.glsl`: see `Weather.ripples`;
+    `sky.glsl`: see `Weather.sky`;
     `weather.glsl`: see `Weather.air`; `wetness.glsl`: see `Weather.wetness`.
 
     Raises InvalidValueError for another name.

@@ -74,6 +74,14 @@ class DepthCopy:
             self._transfer(guard, x, y, width, height)
         return self._texture
 
+    def available(self, guard: StateGuard) -> bool:
+        """Whether the host's framebuffer, which is bound afterwards, has a depth."""
+        guard.bind_framebuffer()
+        found = self._source(guard.framebuffer.glo) is not None
+        if not found:
+            self._tell("the framebuffer has no depth buffer")
+        return found
+
     def _source(self, framebuffer: int) -> Source | None:
         gl = self._gl
         attachment = e.DEPTH_ATTACHMENT if framebuffer else e.DEPTH

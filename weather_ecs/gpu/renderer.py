@@ -26,11 +26,13 @@ from weather_ecs.gpu.rain_blocks import RAIN_VIEW, SHELTER
 from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass
 from weather_ecs.gpu.ripple_pass import RipplePass
 from weather_ecs.gpu.shader_loader import ShaderLoader
+from weather_ecs.gpu.sky_pass import SkyPass
 from weather_ecs.gpu.splash_pass import SplashPass
 from weather_ecs.gpu.timer import GpuTimer, PrimitiveCounter
 from weather_ecs.gpu.veil_pass import VeilPass
 from weather_ecs.gpu.view_block import fill_view
 from weather_ecs.gpu.weather_air import WeatherAir
+from weather_ecs.gpu.weather_sky import WeatherSky
 from weather_ecs.gpu.wetness_map import WetnessMap
 from weather_ecs.gpu.wetness_pass import WetnessPass
 from weather_ecs.physics.footprint import fall_speed_over, landing_wind
@@ -103,6 +105,9 @@ class Renderer:
         self._clouds = keep(CloudPass(ctx, shaders))
         self._bolts = keep(BoltPass(ctx, shaders))
         self._fog = keep(FogPass(ctx, shaders))
+        self._weather_sky: WeatherSky | None = None  # made when first asked for
+        self._sky: SkyPass | None = None
+        self._shaders = shaders
         self._veil = keep(VeilPass(ctx, shaders))
         self._view_block = keep(BlockBuffer(ctx, RAIN_VIEW))
         self._shelter_block = keep(BlockBuffer(ctx, SHELTER))
@@ -180,8 +185,9 @@ class Renderer:
         wet_map = self._wetness.needs_map(view)
         wets = wet_map or self._wetness.needs_update(view)
         fog = self._fog.draws(view)
+        background = self._needs_sky(view)
         clouds, bolts = self._clouds.draws(view), self._bolts.draws(view)
-        sky = fog or clouds or bolts
+        sky = fog or clouds or bolts or background
         if not (view.containers or view.veils or view.frame.ripples or wets or sky):
             return
         with self._guard as guard:
@@ -211,7 +217,10 @@ class Renderer:
             if clouds:
                 self._clouds.update(view, settings, viewport[3])
                 self.stats.update(self._clouds.stats)
+            if self._weather_sky is not None:
+                self._weather_sky.update(view.frame.atmosphere, view.frame.sky)
             guard.bind_framebuffer()
+            self._draw_sky(view, viewport[3])
             self._draw_fog(view)
             self._draw_veils(view, below=True)
             if clouds:
@@ -222,6 +231,7 @@ class Renderer:
             self._draw_veils(view, below=False)
             if bolts and view.veils:
                 self._draw_bolts(view, self._bolts.rain(view))
+            self._draw_bow(view)
             self._draw_splashes(view, sheltered)
             self._draw_drops(view)
             self._timer.end()
@@ -286,6 +296,39 @@ class Renderer:
         self._gl.glDepthMask(0)
         self._bolts.draw(view, rain)
 
+    def sky(self) -> WeatherSky:
+        """The sky's radiance, for a game's own shaders."""
+        if self._weather_sky is None:
+            with self._guard:
+                self._weather_sky = self._keep(WeatherSky(self._ctx, self._shaders))
+        return self._weather_sky
+
+    def _needs_sky(self, view: ViewData) -> bool:
+        """Whether there is a sky to draw, or its map to bring up to date."""
+        air, known = view.frame.atmosphere, self._weather_sky
+        if air is not None and air.draw:
+            return True
+        return known is not None and known.stale(air, view.frame.sky)
+
+    def _draw_sky(self, view: ViewData, height: int) -> None:
+        """Where a framebuffer has no depth, nothing says where the scene is: no sky then."""
+        air = view.frame.atmosphere
+        if air is None or not air.draw:
+            return
+        if self._sky is None:
+            self._sky = self._keep(SkyPass(self._ctx, self._shaders, self.sky()))
+            self.sky().update(air, view.frame.sky)
+            self._guard.bind_framebuffer()
+        if self._sky.draws(view) and self._depth.available(self._guard):
+            self._gl.glDepthMask(0)
+            self._sky.draw(view, height)
+
+    def _draw_bow(self, view: ViewData) -> None:
+        if self._sky is not None and self._sky.draws(view) and self._sky.has_bow:
+            self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
+            self._gl.glDepthMask(0)
+            self._sky.draw_bow(view)
+
     def _draw_fog(self, view: ViewData) -> None:
         if not self._fog.draws(view):
             return
@@ -301,13 +344,10 @@ class Renderer:
         if not veils:
             return
         depth = self._copy_depth()
-        ctx, gl = self._ctx, self._gl
-        ctx.enable_only(moderngl.BLEND | moderngl.CULL_FACE)
-        # The far sides: they are in the picture wherever the camera stands.
-        ctx.front_face, ctx.cull_face = "ccw", "front"
-        gl.glDepthMask(0)
-        self._veil.draw(view, veils, depth)
-        ctx.cull_face = "back"
+        self._ctx.enable_only(moderngl.BLEND)
+        self._gl.glDepthMask(0)
+        has_depth = depth is not self._no_depth
+        self._veil.draw(view, veils, depth, self._guard if has_depth else None)
 
     def _draw_splashes(self, view: ViewData, sheltered: bool) -> None:
         look = view.frame.splash

@@ -35,8 +35,9 @@ SUN_LUX = 133_300.0  # lx, outside the air (Darula, Kittler and Gueymard 2005)
 CLEAR = 2.2  # turbidity of the air that the scale is for
 HIGH = math.degrees(math.asin(0.8))  # the sun's altitude that it is for
 NOON = np.array([1.0, 0.95, 0.86])  # the sun's colour there
-SKY_GAIN = 3.0
+SKY_GAIN = 3.5
 COVER_GAIN = 1.5  # of a covered sky
+HAZE_SHARE = 0.5  # of SKY_GAIN, for the glow round the sun, which a picture cannot hold
 NIGHT_LUX = 6.5e-4  # of airglow and stars on level ground, sun and moon down (Janiczek, -18)
 NIGHT_COLOR = np.array([0.80, 1.02, 1.35])
 BLUE_SHIFT = np.array([0.62, 1.00, 2.12])  # what the eye's rods make of grey (Jensen et al. 2000)
@@ -51,7 +52,7 @@ class ClearSky(NamedTuple):
     """The clear sky of one source of light that gives 1 outside the air."""
 
     air: FloatArray  # radiance times pi, see `atmosphere.SkyTable`
-    haze: FloatArray
+    haze: FloatArray  # times HAZE_SHARE too
     sun: FloatArray  # (3,), what reaches a surface that faces it
     diffuse: FloatArray  # (3,), what level ground gets of the sky
     zenith: FloatArray  # (3,), radiance times pi, mean of the upper part
@@ -116,14 +117,17 @@ def _knot(index: int, turbidity: float) -> tuple[ClearSky, float]:
     cosine = np.sqrt(1.0 - up * up) * np.cos(away) * math.cos(h) + up * math.sin(h)
     shown = math.pi * (table.air + table.haze * haze_phase(cosine)[..., None])
     sines = up[:, 0]
-    rows = np.trapezoid(shown, away[0], axis=1) / math.pi  # means over the azimuth
-    diffuse = 2.0 * np.trapezoid(rows * sines[:, None], sines, axis=0)
+    means = np.trapezoid(shown, away[0], axis=1) / math.pi  # over the azimuth
+    diffuse = 2.0 * np.trapezoid(means * sines[:, None], sines, axis=0)
+    haze = HAZE_SHARE * math.pi * table.haze
+    seen = math.pi * table.air + haze * haze_phase(cosine)[..., None]
+    rows = np.trapezoid(seen, away[0], axis=1) / math.pi
     upper, lower = sines >= 0.7, sines <= math.sin(math.radians(8.0))
     zenith, horizon = (
         np.trapezoid(rows[part], sines[part], axis=0) / np.ptp(sines[part])
         for part in (upper, lower)
     )
-    sky = ClearSky(math.pi * table.air, math.pi * table.haze, table.sun, diffuse, zenith, horizon)
+    sky = ClearSky(math.pi * table.air, haze, table.sun, diffuse, zenith, horizon)
     for array in sky:
         array.setflags(write=False)
     return sky, float(diffuse @ LUMINANCE)
@@ -196,11 +200,11 @@ def scene(
 def adapted(light: float, adaptation: float = 1.0) -> float:
     """Factor on the light that an eye used to `light`, over that of a clear day, sees.
 
-    Of d decades less light it sees 0.465 d / (1 + 0.12 d) decades less: 18 % at sunset, 5 % in
+    Of d decades less light it sees 0.48 d / (1 + 0.1 d) decades less: a sixth at sunset, 4 % in
     civil twilight, 1 % under the stars. With `adaptation` 0 it is a camera that nobody sets, 1.
     """
     d = -math.log10(max(light, 1e-12))
-    seen = 0.465 * d / (1.0 + 0.12 * max(d, 0.0))
+    seen = 0.48 * d / (1.0 + 0.1 * max(d, 0.0))
     return float(10.0 ** (adaptation * (d - seen)))
 
 

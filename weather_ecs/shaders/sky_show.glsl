@@ -1,0 +1,32 @@
+// Linear light of the sky to what an 8-bit target shows, through fog; physics/sky_map.shown in NumPy.
+#include <block:SkyView>
+
+const float SHOULDER = 0.4;
+const float ROUND = 2.0 / 6.371e6;
+
+vec3 sky_shown(vec3 linear)
+{
+    vec3 over = 1.0 + max(linear - SHOULDER, 0.0) * (0.5 / (1.0 - SHOULDER));
+    vec3 bent = 1.0 - (1.0 - SHOULDER) / (over * over);
+    vec3 light = mix(max(linear, vec3(0.0)), bent, greaterThan(linear, vec3(SHOULDER)));
+    return pow(light, vec3(1.0 / 2.2));
+}
+
+// Share of the sky's light that the fog overhead leaves.
+float sky_left(vec3 direction)
+{
+    float up = max(direction.y, 0.0) + sqrt(ROUND * sky_fog.w + 1e-9);
+    return exp(-sky_law.x * sky_fog.w / up);
+}
+
+vec3 sky_in_fog(vec3 light, vec3 direction)
+{
+    return mix(sky_fog.rgb, light, sky_left(direction));
+}
+
+// At the far plane: whatever the scene has drawn is in front.
+vec4 sky_position(vec3 direction)
+{
+    vec4 at = sky_turn * vec4(direction, 0.0);
+    return at.xyww;
+}
