@@ -105,9 +105,9 @@ class BoltPass:
             shape = (GLOW, LEAST_GLOW, MOST_GLOW, 1.0)
             self._render(glowing, (*look.color, AIR * look.glow * left), shape)
         if len(hot):
-            ctx.blend_equation = moderngl.MAX
+            ctx.blend_equation = moderngl.MAX, moderngl.MAX
             self._render(hot, (*look.color, HEAT * left), (look.width, LEAST, MOST_WIDE, 0.0))
-            ctx.blend_equation = moderngl.FUNC_ADD
+            ctx.blend_equation = moderngl.FUNC_ADD, moderngl.FUNC_ADD
         ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
 
     def _render(self, pieces: Floats, color: tuple[float, ...], shape: tuple[float, ...]) -> None:
