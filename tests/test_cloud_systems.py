@@ -91,6 +91,14 @@ def test_models_and_numbers_have_their_shares_too():
     )
 
 
+def test_a_model_that_is_named_twice_has_both_shares():
+    mix = mix_at([Sky(0.5, ["cumulus", "stratus", "cumulus"], count=10)], 0.5)
+    chooser = Chooser()
+    drawn_names = Counter(chooser.take(mix).model for _ in range(3000))
+    assert drawn_names == {"cumulus": 2000, "stratus": 1000}
+    assert Chooser.from_state(chooser.state()).state() == chooser.state()
+
+
 def test_a_sky_without_clouds_thins_the_other_out():
     skies = (Sky(0.0), sky(1.0, 100))
     assert mix_at(skies, 0.25) == Mix(25, mix_at(skies, 1.0).parts)
@@ -315,6 +323,33 @@ def test_with_a_turnover_clouds_live_and_die_in_the_wind_too():
     assert len(start & set(skies_of(of))) <= 2
     assert (of.array.dying >= 0).any()
     assert len(of.array) <= 40 + 40 * (FORMING + 2) / 100.0
+
+
+def test_the_shortest_turnover_there_is_takes_no_longer_and_keeps_the_number():
+    weather = Weather()
+    esper.create_entity(layer(four_skies(), velocity=(5.0, 0.0), turnover=1e-6))
+    seconds(2.0 * FORMING)
+    of = record(weather)
+    assert of.array.standing == 40
+    assert of.serial < 40 + 3 * 40  # and not a million a second
+
+
+def test_very_many_clouds_come_at_once_without_looking_for_room_one_by_one():
+    weather = Weather(seed=2)
+    wide = layer((Sky(0.0, ["cumulus"], count=20_000),), velocity=(0.0, 0.0), size=(1e6, 1e6))
+    esper.create_entity(wide)
+    esper.process(0.05)
+    wide.skies = (Sky(0.0, ["stratus"], count=20_000),)
+    calls: list[int] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("weather_ecs.systems.cloud_layer.apart", lambda *_: calls.append(1) or 0)
+        seconds(1.0)
+    of = record(weather)
+    assert of.array.standing == 20_000
+    assert {of.array.kinds[k].model for k in of.array.kind[of.array.dying < 0]} == {"stratus"}
+    assert len(calls) < 300
+    halves = np.count_nonzero(places(of)[of.array.dying < 0] < 0.0, axis=0)
+    assert (np.abs(halves - 10_000) < 300).all()
 
 
 # Rectangles

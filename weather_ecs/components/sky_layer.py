@@ -33,7 +33,8 @@ class SkyLayer(Agreeing):
     drift: float = 1.0  # 0 to 1: share of the weather's wind that is added to it
     shear: tuple[float, float] = (0.0, 0.0)  # (x, z), m of lean per m of height, each within 10
 
-    turnover: float = 0.0  # s, 0 to 1e6, in which the clouds are others where they stand; 0: never
+    # s, 0 to 1e6, in which the clouds are others where they stand; below 24 counts as 24, 0: never
+    turnover: float = 0.0
 
     # A count of its own: a layer may follow an observer, which changes neither skies nor models.
     _revision: ClassVar[list[int]] = [0]

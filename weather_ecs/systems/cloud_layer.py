@@ -28,6 +28,8 @@ TICK = 1.0  # s
 FORMING = 24  # ticks from nothing to whole, and back
 CALM = 0.5  # m/s, of wind below which clouds change where they stand
 CHANGE = 90.0  # s in which they do so in calm air
+QUICKEST = FORMING * TICK  # s in which all clouds can change where they stand
+MANY = 64  # clouds at once, of which each need not look for room of its own
 HASTE = 0.1  # share by which a wrong number is put right faster than the stream alone would
 
 
@@ -97,7 +99,10 @@ class LayerClouds:
         elif crossed > 0.0:
             self._come_in(mix, moved, standing, left)
         wind = math.hypot(*velocity) if crossed > 0.0 else 0.0
-        pace = TICK / turnover if turnover > 0.0 else TICK / CHANGE * max(1.0 - wind / CALM, 0.0)
+        if turnover > 0.0:
+            pace = TICK / max(turnover, QUICKEST)
+        else:
+            pace = TICK / CHANGE * max(1.0 - wind / CALM, 0.0)
         if pace > 0.0:
             self._change_in_place(mix, pace, steady=turnover > 0.0)
         array.drop_gone(self.ticks - FORMING)
@@ -156,17 +161,19 @@ class LayerClouds:
                 count = min(count, target - standing + left)
         if count > 0 and mix.parts:
             kinds = [self.chooser.take(mix) for _ in range(count)]
-            places = np.array([self._upwind(moved, self.serial + k) for k in range(count)])
+            tries = 3 if count <= MANY else 1
+            serials = range(self.serial, self.serial + count)
+            places = np.array([self._upwind(moved, serial, tries) for serial in serials])
             self._add(kinds, places, WHOLE)
 
-    def _upwind(self, moved: tuple[float, float], serial: int) -> tuple[int, int]:
+    def _upwind(self, moved: tuple[float, float], serial: int, tries: int) -> tuple[int, int]:
         """A place in the strip that has come into the rectangle since the last tick, in quanta."""
         box = self.box
         chance = self._chance(serial)
         along_x, along_z = abs(moved[0]) / box.width, abs(moved[1]) / box.depth
         from_x = uniform(chance, 1) * (along_x + along_z) < along_x
         best, farthest = (0, 0), -1
-        for attempt in range(3):  # of three the one that is farthest from the other clouds
+        for attempt in range(tries):  # the one of them that is farthest from the other clouds
             across, depth = uniform(chance, 2, attempt), uniform(chance, 3, attempt)
             if from_x:
                 x = math.copysign(0.5 * box.width, -moved[0]) + depth * moved[0]
@@ -175,7 +182,7 @@ class LayerClouds:
                 x = (across - 0.5) * box.width
                 z = math.copysign(0.5 * box.depth, -moved[1]) + depth * moved[1]
             place = self._place(x, z)
-            distance = apart(place, self.array.x, self.array.z)
+            distance = apart(place, self.array.x, self.array.z) if tries > 1 else 0
             if distance > farthest:
                 best, farthest = place, distance
         return best
@@ -208,6 +215,11 @@ class LayerClouds:
                 self.change = 0.0
 
     def _form(self, mix: Mix, count: int) -> None:
+        if count > MANY and mix.parts:
+            kinds = [self.chooser.take(mix) for _ in range(count)]
+            places = scattered(count, self.box.width, self.box.depth, self._chance(self.serial))
+            self._add(kinds, self._inside(places), self.ticks)
+            return
         for _ in range(count if mix.parts else 0):
             chance = self._chance(self.serial)
             spots = [

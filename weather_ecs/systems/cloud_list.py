@@ -126,7 +126,7 @@ class CloudList:
     ) -> None:
         """Make a layer's view anew if anything it is built of has changed."""
         library = state.cloud_shapes
-        place = (layer.base, layer.variation, id(layer.skies))
+        place = (layer.base, layer.variation, layer.skies)
         now = (record.array, record.array.version, CloudModel.revision(), place)
         if now == seen.state and (not seen.wanted or library.lit == seen.lit):
             return

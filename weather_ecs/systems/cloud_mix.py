@@ -67,9 +67,12 @@ def _mix(skies: Sequence[Sky], weights: Sequence[float]) -> Mix:
 
 
 def _models(sky: Sky) -> tuple[tuple[str, float], ...]:
-    weights = sky.weights or (1.0,) * len(sky.models)
-    names = [model.name if isinstance(model, CloudModel) else model for model in sky.models]
-    return tuple([(name, w) for name, w in zip(names, weights, strict=True) if w > 0.0])
+    found: dict[str, float] = {}  # a name that is there twice has both shares
+    for model, weight in zip(sky.models, sky.weights or (1.0,) * len(sky.models), strict=True):
+        name = model.name if isinstance(model, CloudModel) else model
+        if weight > 0.0:
+            found[name] = found.get(name, 0.0) + weight
+    return tuple(found.items())
 
 
 class Quota:
