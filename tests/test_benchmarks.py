@@ -93,6 +93,20 @@ def test_scaling_covers_drops_areas_observers_and_occluders(tmp_path: Path) -> N
         assert 0.3 < ratios["python_ultra_over_low"] < 3.0
 
 
+def test_server_measures_whole_worlds_without_opengl(tmp_path: Path) -> None:
+    result = report("server", tmp_path)
+    assert result["benchmark"] == "server" and result["renderer"] == "none"
+    rows = {row["name"]: row for row in result["rows"]}
+    assert set(rows) == {"whole", "areas_still", "clouds_alone", "worlds_3"}
+    assert (rows["whole"]["clouds"], rows["whole"]["areas"]) == (1000, 20)
+    assert rows["worlds_3"]["worlds"] == 3
+    ratios = result["ratios"]
+    assert ratios["times_real_time"] == pytest.approx(1e3 / rows["whole"]["ms"], rel=1e-4)
+    assert ratios["times_real_time"] > 0.0 and ratios["moving_over_still"] > 0.0
+    assert 2_000 < ratios["snapshot_bytes"] < 200_000
+    assert rows["clouds_alone"]["snapshot_bytes"] < rows["whole"]["snapshot_bytes"]
+
+
 @pytest.mark.parametrize("kind", [RousseauRain, TariqRain])
 def test_box_rain_falls_and_stays_in_its_box(
     stage: Stage, keep: Keep, kind: Callable[..., BoxRain]

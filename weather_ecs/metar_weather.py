@@ -54,7 +54,7 @@ def weather_of(name: str, observed: Observed) -> tuple[WholeWeather, list[tuple[
     most = CONTRAST / max(sight, 1.0)
     known = rate if sight < FAR else 0.0
     while (
-        0.0 < known
+        known > 0.0
         and rate > 0.2 * known
         and falling_extinction(rate * (1.0 - frozen), rate * frozen) > most
     ):
