@@ -33,7 +33,7 @@ MOON = ProgramKey(vertex="sky_disc.vert", fragment="sky_disc.frag", defines=("MO
 STARS = ProgramKey(vertex="sky_stars.vert", fragment="sky_stars.frag")
 COLUMNS, ROWS = 48, 40  # cells of the grid
 SUN_RADIUS, MOON_RADIUS = math.radians(0.2666), math.radians(0.259)
-GLARE = 26.0  # radii of the sun
+GLARE = 20.0  # radii of the sun
 MAP_UNIT = 0
 
 

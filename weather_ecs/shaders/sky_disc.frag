@@ -59,7 +59,7 @@ void main()
 #else
     float deep = sqrt(max(1.0 - q * q, 0.0));
     float rim = max(1.0 - q / disc_size.y, 0.0);
-    float glare = 0.055 / (1.0 + q * q * 0.3) * rim * rim;
+    float glare = 0.15 / (1.0 + q * q * 0.16) * rim * rim;
     vec3 light = disc_light * (edge * (0.4 + 0.6 * deep) + glare);
     float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
     color = vec4(sky_shown(sky + left * light) + (noise - 0.5) * (1.0 / 255.0), 1.0);
