@@ -117,6 +117,12 @@ def test_absorption_is_a_share():
     assert absorbed([1e300], 1e-300).tolist() == [1.0]
 
 
+@pytest.mark.parametrize("none", [[], np.zeros((0, 3))])
+def test_no_seeds_have_no_lengths(none):
+    assert path_lengths(none, none, (0, 1, 0)).shape == (0,)
+    assert path_lengths_to(none, none, (0, 1, 0)).shape == (0,)
+
+
 @pytest.mark.parametrize("penetration", [0, -1, math.nan, None, [1.0, 2.0]])
 def test_bad_penetrations_are_refused(penetration):
     with pytest.raises(InvalidValueError, match="light_penetration"):
@@ -131,6 +137,7 @@ def test_bad_penetrations_are_refused(penetration):
         ([[0, 0, 0]], [[1, 1, 1]], (0, 1)),
         ([[0, 0, 0]], [[1, 1, -1]], (0, 1, 0)),
         ([[0, 0, 0]], [[1, 1, 1]] * 2, (0, 1, 0)),
+        ([], [[1, 1, 1]], (0, 1, 0)),
         ([0, 0, 0], [1, 1, 1], (0, 1, 0)),
         ([[0, 0, math.inf]], [[1, 1, 1]], (0, 1, 0)),
     ],

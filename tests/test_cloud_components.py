@@ -35,6 +35,20 @@ def test_every_field_is_among_the_cases():
         assert list(them) == list(kind.checks)
 
 
+def test_a_model_without_seeds_is_refused_with_what_is_missing():
+    with pytest.raises(InvalidValueError, match="at least one seed"):
+        CloudModel()
+    assert CloudModel(seeds=[CloudSeed()]).name == "cloud"
+
+
+def test_two_models_of_one_name_in_a_sky_are_refused():
+    one, other = CloudModel(seeds=[CloudSeed()]), CloudModel(seeds=[CloudSeed(width=7.0)])
+    for models in ((one, other), (one, one), (one, "cloud")):
+        with pytest.raises(InvalidValueError, match="two called 'cloud'"):
+            Sky(0.5, models, count=1)
+    assert Sky(0.5, ("cumulus", "cumulus", one), count=1).models[2] is one
+
+
 @pytest.mark.parametrize(("kind", "name", "good", "bad"), CASES)
 def test_good_values_are_taken(kind, name, good, bad):
     for value in good:

@@ -67,6 +67,7 @@ def test_visibility_in_rain() -> None:
         lambda: optics.fog_factor(math.nan, 0.1),
         lambda: optics.fog_factor([1.0, math.nan], 0.1),
         lambda: optics.visibility_to_extinction(0.0),
+        lambda: optics.visibility_to_extinction([100.0, 1e-305]),
         lambda: optics.visibility_to_extinction(-5.0),
         lambda: optics.visibility_to_extinction(math.nan),
         lambda: optics.extinction_to_visibility(-1e-9),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -47,6 +49,24 @@ def test_levels_have_between_their_first_and_last_number_of_seeds():
     centers, _ = reproduce(model(root), rng())
     levels = np.rint(np.linalg.norm(centers - (10, 20, 30), axis=1) / 65.0).astype(int)
     assert np.bincount(levels).tolist() == [1, 8, 6, 4, 2]
+
+
+def test_a_model_may_be_anything_with_the_fields_of_one():
+    root = SimpleNamespace(
+        pitch=90,
+        yaw=0,
+        open_pitch=0,
+        open_yaw=0,
+        reproductions_min=1,
+        reproductions_max=1,
+        seeds_start=2,
+        seeds_end=2,
+    )
+    plain = SimpleNamespace(width=30, height=40, depth=120)
+    rooted = SimpleNamespace(**vars(plain), center=[1, 2, 3], roots=[root])
+    centers, sizes = reproduce(SimpleNamespace(seeds=[plain, rooted]), rng())
+    assert centers == pytest.approx(np.array([(0, 0, 0), (1, 2, 3), (1, 67, 3), (1, 67, 3)]))
+    assert np.all(sizes == (30.0, 40.0, 120.0))
 
 
 def test_level_counts_of_few_levels():

@@ -51,6 +51,8 @@ CLOUD_MODELS = (
 C = TypeVar("C", bound=Component)
 
 _SECTIONS = ("version", "models", "clouds", "layers", "climate")
+# Fields that have defaults, but that a file has to have.
+_REQUIRED = {(CloudModel, "name"), (CloudModel, "seeds")}
 # Fields that are tables themselves.
 _INSIDE: dict[tuple[type[Component], str], type[Component]] = {
     (CloudModel, "seeds"): CloudSeed,
@@ -215,7 +217,8 @@ def _one(kind: type[C], table: Any, path: toml_text.Path) -> C:
     entries = fields(kind)  # type: ignore[arg-type]
     _known(table, [entry.name for entry in entries], path)
     for entry in entries:
-        if entry.default is MISSING and entry.name not in table:
+        required = entry.default is MISSING or (kind, entry.name) in _REQUIRED
+        if required and entry.name not in table:
             raise _BadError((*path, entry.name), None, f"every {kind.__name__} has one")
     values = dict(table)
     for key in {"model", "models"} & table.keys():  # which components take as mappings too

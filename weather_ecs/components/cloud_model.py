@@ -23,8 +23,8 @@ class CloudModel(Agreeing):
     `billboards_min` and `billboards_max` in each seed, each `size_min` to `size_max` wide.
     """
 
-    name: str
-    seeds: tuple[CloudSeed, ...]  # 1 to 4096
+    name: str = "cloud"
+    seeds: tuple[CloudSeed, ...] = ()  # 1 to 4096: a model has to have one
     billboards_min: int = 3  # 0 to 10000, in each seed
     billboards_max: int = 5  # 1 to 10000, not below the minimum
     size_min: float = 60.0  # m, of a billboard, 0.001 to 1e6

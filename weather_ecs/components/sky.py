@@ -59,6 +59,10 @@ class Sky(Agreeing):
     def agree(self) -> None:
         if self.count and not self.models:
             raise InvalidValueError("Sky.count", self.count, "0 where there are no models")
+        given = [model.name for model in self.models if isinstance(model, CloudModel)]
+        for name in given:  # clouds are told apart by the names of their models
+            if given.count(name) + self.models.count(name) > 1:
+                raise InvalidValueError("Sky.models", f"two called {name!r}", "names that differ")
         if self.weights and len(self.weights) != len(self.models):
             raise InvalidValueError(
                 "Sky.weights", self.weights, f"none, or one for each of {len(self.models)} models"

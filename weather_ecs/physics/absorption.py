@@ -69,6 +69,8 @@ def absorbed(path_lengths: ArrayLike, light_penetration: float) -> FloatArray:
 
 def _boxes(centers: ArrayLike, sizes: ArrayLike) -> tuple[FloatArray, FloatArray]:
     middles, sides = floats("centers", centers), floats("sizes", sizes, 0.0)
+    if not middles.size and not sides.size:  # no seeds, in whatever shape
+        return np.zeros((0, 3)), np.zeros((0, 3))
     if middles.ndim != 2 or middles.shape[1] != 3:
         raise InvalidValueError("centers", middles.shape, "shape (n, 3), metres")
     if sides.shape != middles.shape:

@@ -7,6 +7,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from weather_ecs.errors import InvalidValueError
+
 from .checks import FloatArray, floats
 from .drops import extinction
 from .snow import snow_extinction
@@ -40,7 +42,10 @@ def visibility_to_extinction(visibility: ArrayLike) -> FloatArray:
 
     0 for an infinite visibility. Raises InvalidValueError for 0, where extinction has no value.
     """
-    return CONTRAST / floats("visibility", visibility, 1e-300, math.inf)
+    seen = floats("visibility", visibility, 0.0, math.inf)
+    if not np.all(seen >= 1e-300):  # below, the quotient is infinite
+        raise InvalidValueError("visibility", visibility, "above 0")
+    return CONTRAST / seen
 
 
 def extinction_to_visibility(extinction: ArrayLike) -> FloatArray:

@@ -1,7 +1,8 @@
 """Reproduction: from the seeds and roots of a model to the boxes and billboards of one cloud.
 
 After R. P. Torchelsen, "Modelo para simulação em tempo-real de nuvens usando billboards" (UNISINOS,
-2005), section 3.1. A model is anything with the fields of `components.CloudModel`.
+2005), section 3.1. A model is anything with the fields of `components.CloudModel`; in `reproduce` a
+seed may do without a centre, which is then the origin, and without roots.
 """
 
 from __future__ import annotations
@@ -60,12 +61,12 @@ def descend(model: Any, rng: np.random.Generator) -> Boxes:
     sides: list[FloatArray] = []
     total = 0
     for seed in model.seeds:
-        center = floats("center", seed.center)
+        center = floats("center", getattr(seed, "center", (0.0, 0.0, 0.0)))
         size = floats("size", (seed.width, seed.height, seed.depth), 0.0)
         if not size.all():
             raise InvalidValueError("size", size.tolist(), "three numbers above 0, metres")
         added = [center[None, :]]
-        for root in seed.roots:
+        for root in getattr(seed, "roots", ()):
             steps = _steps(root, rng)
             total += len(steps)
             if total > MOST_SEEDS:
@@ -106,8 +107,8 @@ def billboards(model: Any, boxes: Boxes, rng: np.random.Generator) -> NDArray:
     """Billboards of a cloud in its boxes, an array of BILLBOARDS; positions in the boxes' axes.
 
     `roundness` draws them from the whole box towards the ellipsoid in it. `flatness` lifts those
-    that would hang below the lowest box until what they show stands on its bottom. `order` is 0 for the one
-    nearest to the cloud's middle and rises evenly to 1 at the rim.
+    that would hang below the lowest box until what they show stands on its bottom. `order` is 0 for
+    the one nearest to the cloud's middle and rises evenly to 1 at the rim.
     """
     centers, sides = boxes.centers, boxes.sizes
     if len(centers) * model.billboards_max > MOST_BILLBOARDS:
