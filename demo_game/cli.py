@@ -15,12 +15,15 @@ from demo_game.place.place import BOUNDS
 from demo_game.settings import BACKENDS, QUALITIES, Settings
 from demo_game.tours import TOURS
 from weather_ecs.errors import WeatherError
-from weather_ecs.presets import PRESETS
+from weather_ecs.presets import PRESETS, SKIES
 
 DEFAULT_OUT = Path("out") / "demo"
 LARGEST_SIZE = 8192
 MOST_FRAMES = 1_000_000
 INTERRUPTED = 130  # what a shell calls Ctrl-C
+
+
+_OTHER_SKIES = tuple(name for name in SKIES if name not in PRESETS)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -79,7 +82,12 @@ def _one_of(names: Sequence[str]) -> Callable[[str], str]:
 
 
 def _preset(text: str) -> str:
-    return PRESETS[text].name if text in PRESETS else _one_of(tuple(PRESETS))(text)
+    if text in PRESETS:
+        return PRESETS[text].name
+    if text in SKIES or text.lower().endswith(".toml"):
+        return text
+    allowed = ", ".join((*PRESETS, *_OTHER_SKIES))
+    raise argparse.ArgumentTypeError(f"got {text!r}, allowed: {allowed}, or a file, NAME.toml")
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -100,7 +108,10 @@ def build_parser() -> argparse.ArgumentParser:
         default="walk",
         help="walk: from dry land through the rain area's edge, into the cabin, out by the other "
         "side, all of it in the frames given; run: in through the edge at 6 m/s; crossing: "
-        "straight through the edge at --walk-speed; still: in the rain, not moving",
+        "straight through the edge at --walk-speed; still: in the rain, not moving; clouds: under "
+        "a sky that fills from clear to storm, with shafts of rain, then up through a cloud and "
+        "over the tops; snow: before, while and after it snows. The last two bring their own "
+        "weather and are a time-lapse in parts, however many frames they have",
     )
     add("--frames", type=_number(int, 1, MOST_FRAMES, f"1 to {MOST_FRAMES}"), default=600)
     add("--size", type=_size, metavar="WxH", default=(1280, 720), help="default 1280x720")
@@ -129,10 +140,12 @@ def build_parser() -> argparse.ArgumentParser:
     add(
         "--preset",
         type=_preset,
-        metavar="NAME",
+        metavar="NAME|FILE",
         default="heavy",
-        help=f"{', '.join(PRESETS)} (default heavy); on a tour only what falls and the wind follow "
-        "a rain, so that the difference of two runs is the rain; fog, sleet, snow: the air too",
+        help=f"{', '.join(PRESETS)} (default heavy); {', '.join(_OTHER_SKIES)}: a sky with the "
+        "rain that its own clouds bring; or a file of clouds, NAME.toml; on a "
+        "tour only what falls and the wind follow a rain, so that the difference of two runs is "
+        "the rain; fog, sleet, snow: the air too",
     )
     add(
         "--walk-speed",

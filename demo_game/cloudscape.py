@@ -29,14 +29,12 @@ class Cloudscape:
         state: float,
         areas: Sequence[RainArea],
         layers: Sequence[SkyLayer],
-        climate: Climate | None = None,
     ) -> None:
         self.layers = list(layers)
-        self.climate = climate or Climate(
-            duration=DURATION, elapsed=state * DURATION, running=False
-        )
-        for component in (*self.layers, self.climate):
-            esper.create_entity(component)
+        self.climate = Climate(duration=DURATION, elapsed=state * DURATION, running=False)
+        for layer in self.layers:
+            esper.create_entity(layer)
+        self._climate_entity = esper.create_entity(self.climate)
         self._rates: dict[str, float] = {}
         self._models = [presets.cloud_model(name) for name in RAINY]
         for model in self._models:
@@ -69,12 +67,18 @@ class Cloudscape:
 
     def run(self) -> bool:
         """Let the climate run, the other way each time; whether it is on its way to the storm."""
-        onwards = self.climate.speed < 0.0 if self.climate.running else self.state < 0.5
+        onwards = self.climate.speed < 0.0 if self.climate.running else self.state < 0.9
+        self._be_at(self.state)
         self.climate.speed = 1.0 if onwards else -1.0
         if not self.climate.running:
             self.climate.running = True
         self.let_rain(True)
         return onwards
+
+    def follow(self, climate: Climate) -> None:
+        """Another climate counts: that of a file."""
+        esper.delete_entity(self._climate_entity, immediate=True)
+        self.climate, self._last = climate, 0.0
 
     def stop(self) -> None:
         """The mood says what the state is."""
@@ -88,7 +92,7 @@ class Cloudscape:
         rates: mm/h, of the game's areas.
         """
         if not self.climate.running and abs(state - self.state) > 1e-9:
-            self.climate.elapsed = state * self.climate.duration
+            self._be_at(state)
         if abs(self.state - self._last) > CHANGED:
             self._last, self._left = self.state, SETTLED
         self._left = max(self._left - dt, 0.0)
@@ -98,6 +102,12 @@ class Cloudscape:
                 layer.turnover = turnover
         for (cloud, area), rate in zip(self.clouds, rates, strict=True):
             place_over(cloud, area, rate)
+
+    def _be_at(self, state: float) -> None:
+        climate = self.climate
+        if (climate.initial, climate.final) != (0.0, 1.0):
+            climate.initial, climate.final = 0.0, 1.0
+        climate.elapsed = state * climate.duration
 
     def let_rain(self, rains: bool) -> None:
         """Whether the clouds of the sky bring their own rain."""

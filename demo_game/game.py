@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import esper
@@ -16,7 +17,15 @@ from demo_game.collision import Colliders
 from demo_game.compass import compass
 from demo_game.entities import Entities, direction, fog_left, fog_overhead
 from demo_game.letter import Letter, State
-from demo_game.mood import AIRS, TURN_STEP, WIND_STEP, Mood, MoodChanger, preset_mood
+from demo_game.mood import (
+    AIRS,
+    TURN_STEP,
+    WIND_STEP,
+    Mood,
+    MoodChanger,
+    climate_mood,
+    preset_mood,
+)
 from demo_game.place import Place
 from demo_game.player import Intent, Player
 from demo_game.plays import Play
@@ -26,7 +35,7 @@ from demo_game.showers import Showers
 from demo_game.skies import SkyChanger, hide
 from demo_game.tours import Tour
 from weather_ecs import Weather
-from weather_ecs.components import RainArea, SkyLayer
+from weather_ecs.components import Climate, RainArea, SkyLayer
 from weather_ecs.errors import WeatherError
 from weather_ecs.presets import PRESETS, SKIES
 
@@ -82,10 +91,12 @@ class Game:
         self._entities = Entities(self.place, self._mood(), self._light(), SCENE_START)
         self._scape = Cloudscape(self._scenery().state, self._entities.areas(), self._layers())
         self._play = getattr(tour, "play", None)
-        self._scape.let_rain(preset in SKIES and preset not in PRESETS)
+        self._scape.let_rain(preset not in PRESETS)
         self.scene = SceneRenderer(context, self.place, settings.quality)
         try:
             self.weather = self._make_weather()
+            if preset not in PRESETS and preset not in SKIES:
+                self._load(preset)
         except WeatherError:
             self.scene.release()
             self._leave_world()
@@ -98,8 +109,14 @@ class Game:
 
     @property
     def areas(self) -> list[RainArea]:
-        """The rain areas, for the map."""
-        return self._entities.areas()
+        """The rain areas, for the map: the game's own, then those that clouds carry."""
+        own = self._entities.areas()
+        carried = [area for _, area in esper.get_component(RainArea)] if self._is_current else []
+        return own + [area for area in carried if not any(area is each for each in own)]
+
+    @property
+    def _is_current(self) -> bool:
+        return esper.current_world == self._world
 
     def update(self, dt: float, intent: Intent = STILL) -> None:
         """Let dt seconds pass."""
@@ -190,6 +207,19 @@ class Game:
         self.scene.release()
         self._leave_world()
 
+    def _load(self, path: str) -> None:
+        """The sky of a file in place of the game's."""
+        try:
+            entities = self.weather.load(path)
+        except WeatherError:
+            self.weather.close()
+            raise
+        for entity in entities:
+            climate = esper.try_component(entity, Climate)
+            if climate is not None:
+                self._scape.follow(climate)
+        self.mood.put(climate_mood(self._scape.state, WIND_HEADING), Path(path).stem)
+
     def _follow_play(self, play: Play) -> None:
         turn = play.at(self.time, self.mood.target.wind_heading)
         self.mood.put(turn.mood, turn.name)
@@ -245,11 +275,18 @@ class Game:
         """The sky: on the tours that are compared it drifts the same whatever the wind, and costs
         little if that is asked for.
         """
+        if self.mood.preset not in PRESETS and self.mood.preset not in SKIES:
+            return []  # a file has its own
         if not self._is_compared:
             return all_layers()
         shower = self._entities.shower
         shower.drift, shower.velocity = 0.0, STEADY
-        return light_layers() if self.settings.quality in LIGHT else steady_layers()
+        return steady_layers() if self._has_shadows else light_layers()
+
+    @property
+    def _has_shadows(self) -> bool:
+        """Whether clouds cast shadows: not in the light sky of a measured tour."""
+        return not (self._is_compared and self.settings.quality in LIGHT)
 
     @property
     def _is_compared(self) -> bool:
@@ -316,6 +353,7 @@ class Game:
             wind=self._wind(mood),
             ripples=self.weather.ripples(self._entities.pond),
             water=self.weather.wetness() if self._is_wetted else None,
+            cloud_shadow=self.weather.cloud_shadow() if self._has_shadows else None,
             snow=self._snows,
             actor_snow=self._entities.snow_on_actors(self.weather),
             lamps=light.lamps,

@@ -23,6 +23,8 @@ def play_key(name: str, game: Game, shown: Shown) -> str | None:
         return game.blow(1 if name == "BRACKETRIGHT" else -1)
     if name in ("COMMA", "PERIOD"):
         return game.turn_wind(1 if name == "COMMA" else -1)
+    if name == "C":
+        return game.run_climate()
     if name == "T":
         game.sky.next()
         return game.sky.name.capitalize()

@@ -19,7 +19,7 @@ class Ripples(Protocol):
 
 
 class Water(Protocol):
-    """The weather's water on the ground, for a program that includes wetness.glsl."""
+    """A map of the weather's, such as water on the ground, for a program that includes its GLSL."""
 
     def use(self, program: Any, unit: int) -> None:
         """Bind it."""
@@ -44,6 +44,7 @@ class Environment:
     wind: tuple[float, float, float] = (2.0, 0.0, 0.6)  # m/s
     ripples: Ripples | None = None  # on the pond
     water: Water | None = None  # on the ground; without it rain areas and wetness wet it
+    cloud_shadow: Water | None = None  # of clouds on the ground; for cloud_shadow.glsl
     snow: bool = False  # whether any may lie, as `water` knows
     actor_snow: tuple[float, float] = (0.0, 0.0)  # m, on the figure and on the sails
     lamps: float | None = None  # 0..1, how bright lamps burn; None: as the daylight asks

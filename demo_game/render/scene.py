@@ -27,6 +27,7 @@ from .water import Halos, LampPools, Water
 
 SHADOW_UNIT, DETAIL_UNIT, MEADOW_UNIT, SKY_UNIT, LEAF_UNIT = range(5)
 WATER_UNIT = 6  # and the one after; 5 has the ripples
+CLOUD_UNIT = 8
 MOVING_SHADOWS = 140.0  # m from the camera
 SUN_STRENGTH = 2.6  # of the sun against its colour
 
@@ -62,7 +63,9 @@ class SceneRenderer:
         for program in self._wet:
             # Until the weather's water is there, anything of the right kind.
             set_uniforms(program, weather_wet_map=DETAIL_UNIT, weather_wet_far=DETAIL_UNIT)
+            set_uniforms(program, weather_shadow_map=DETAIL_UNIT)
             self._block.attach(program, name="WeatherWetness")
+            self._block.attach(program, name="WeatherCloudShadow")
         self._make_sized()
         self._released = False
 
@@ -113,6 +116,9 @@ class SceneRenderer:
         if environment.water is not None:
             for program in self._wet:
                 environment.water.use(program, WATER_UNIT)
+        if environment.cloud_shadow is not None:
+            for program in self._wet:
+                environment.cloud_shadow.use(program, CLOUD_UNIT)
         self._sky.paint(camera, environment)
         target.use()
         target.viewport = viewport

@@ -2,11 +2,15 @@
 const vec3 LAMP_COLOR = vec3(1.0, 0.66, 0.36);
 const float LAMP_STRENGTH = 1.5;
 #include "wetness.glsl"
+#include "cloud_shadow.glsl"
 #include "fog_light.glsl"
 
-// x: share of daylight the rain clouds take at p, y: wetness they bring.
+const float CLOUD_SHADOW = 0.85;  // of the daylight's share that rain clouds take
+
+// x: share of daylight that clouds take at p, y: wetness that rain brings.
 vec2 rain_cover(vec2 p) {
     vec2 cover = vec2(0.0);
+    if (drift.x > 0.5) cover.x = CLOUD_SHADOW * (1.0 - weather_sunlight(vec3(p, 0.0).xzy));
     for (int i = 0; i < int(fog_color.w); i++) {
         vec2 d = p - area_shape[i].xy;
         vec2 turn = area_turn[i].xy;

@@ -31,6 +31,7 @@ RIGHT = (
     ("8  9", "light snow, heavy snow"),
     ("0  -", "blizzard, fog"),
     ("", ""),
+    ("C", "to storm, and back to clear"),
     ("[  ]", "less wind, more wind"),
     (",  .", "turn the wind"),
     ("T", "time of day"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from demo_game.compass import compass
@@ -19,6 +19,7 @@ ROWS = (
     "air",
     "wind",
     "sky",
+    "clouds",
     "quality",
     "engine",
     "position",
@@ -129,6 +130,7 @@ def readout_values(
         "air": f"{here.temperature:.1f} \u00b0C   {100.0 * here.humidity:.0f} %",
         "wind": f"{wind[0]:.1f} m/s to {compass(wind[1])}",
         "sky": state,
+        "clouds": _clouds(get),
         "quality": used if quality in (used, "") else f"{quality}: {used}",
         "engine": backend,
         "position": "  ".join(f"{value:.1f}" for value in position) + " m",
@@ -142,6 +144,12 @@ def _falls(here: Sample) -> str:
     parts = [("rain", here.rain_rate), ("snow", here.snow_rate)]
     found = [f"{name} {rate:.1f}" for name, rate in parts if rate >= 0.05]
     return " + ".join(found) + " mm/h" if found else "nothing"
+
+
+def _clouds(get: Callable[[str], Any]) -> str:
+    """The climate's state; clouds in view, impostors taken anew, absorption factors computed."""
+    figures = f"{int(get('clouds_drawn'))}, {int(get('impostors_refreshed'))} new"
+    return f"{float(get('state')):.2f}   {figures}, CFA {int(get('cfa_computed'))}"
 
 
 def _length(meters: float) -> str:
