@@ -167,10 +167,8 @@ class Stage:
         fill_view(self.block, view, (*origin, width, height))
         self.block.upload()
         self.block.bind()
-        self.ctx.enable_only(moderngl.CULL_FACE)
-        self.ctx.front_face, self.ctx.cull_face = "ccw", "front"
+        self.ctx.enable_only(moderngl.NOTHING)
         self.veils.draw(view, view.veils, texture)
-        self.ctx.cull_face = "back"
         self.target.viewport = (0, 0, 160, 90)
         pixels = np.frombuffer(self.target.read(components=4, dtype="f4"), np.float32)
         texture.release()

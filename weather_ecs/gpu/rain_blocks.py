@@ -59,17 +59,6 @@ RAIN_DRAW = UniformBlock(
     ("drop_dry", "vec4"),  # s, fall times of the drops that are missing; see rain_front.glsl
 )
 
-# One area's veil.
-VEIL = UniformBlock(
-    "Veil",
-    ("veil_axis", "vec4"),
-    ("veil_shape", "vec4"),  # a, b, level of f inside which the rate is full
-    ("veil_span", "vec4"),  # bottom, top
-    ("veil_load", "vec4"),  # extinction in 1/m, distance to which the drops show it in m, slope
-    ("veil_tint", "vec4"),  # encoded, its colour
-    ("veil_dry", "vec4"),  # s, fall times of the drops that are missing; see rain_front.glsl
-)
-
 # The collision heightmap of one observer.
 SHELTER = UniformBlock(
     "Shelter",

@@ -33,6 +33,13 @@ def veil_light(sky: SkyLight) -> NDArray:
     return 0.45 * zenith + 0.40 * horizon + 0.15 * np.array(sky.ground_color)
 
 
+def cloud_light(sky: SkyLight) -> NDArray:
+    """The same under a thick cloud, linear RGB: from the sides, and grey from above."""
+    zenith, horizon = np.array(sky.zenith_color), np.array(sky.horizon_color)
+    above = 0.25 * float(zenith @ (0.2126, 0.7152, 0.0722))
+    return 0.45 * above + 0.40 * horizon + 0.15 * np.array(sky.ground_color)
+
+
 @lru_cache(maxsize=8)
 def _lights(sky: SkyLight) -> tuple[NDArray, NDArray]:
     """(what a drop shows, the veil's colour encoded): the light changes seldom."""

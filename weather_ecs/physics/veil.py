@@ -159,6 +159,13 @@ def rain_distance(
     return np.asarray(along * np.sqrt((ray * ray).sum(axis=-1)))
 
 
+def longest_path(shape: tuple[float, float, float]) -> float:
+    """Metres of rain at its full rate along the longest level way through an ellipse."""
+    a, _, inner = shape
+    root = math.sqrt(inner)
+    return 4.0 / 3.0 * a * (1.0 - inner * root) / (1.0 - inner)
+
+
 def opacity(path: ArrayLike, extinction: float) -> FloatArray:
     """What a veil covers, 0 to 1: the light that does not get through."""
     return -np.expm1(-np.asarray(path, np.float64) * extinction)

@@ -1,15 +1,17 @@
-// Optical depth of the rain along the view ray inside an area's elliptical cylinder, less what the
-// drops near the observer already show. With f the ellipse's implicit function along the ray, a
+// Optical depth of the rain along the view ray inside the elliptical cylinders of areas, less what
+// the drops near the observer already show. With f an ellipse's implicit function along the ray, a
 // quadratic in t, the rain rate's share is (1 - f) / (1 - f_in), at most 1: its integral is closed.
+// physics/veil.py is the oracle. CHANGING: of rain that begins or ends. EMPTY: before nothing.
 #include <block:RainView>
 #include <block:Veil>
 #include "fog.glsl"
+#include "grain.glsl"
 #include "rain_front.glsl"
 
 uniform sampler2D scene_depth;
 
-in vec3 vs_ray;
-in vec4 vs_own;
+noperspective in vec3 vs_ray;
+noperspective in vec2 vs_place;
 out vec4 color;
 
 // Integral over [x0, x1] of max(h - x^2, 0), h2 = max(h, 0).
@@ -22,10 +24,12 @@ float over_level(float h2, float x0, float x1)
 }
 
 // The same integral where rain begins or ends, in parts: in each the share that has come down is that
-// at its middle. y: height in m of the ray where x = 0.
+// at its middle. fall: m below the ceiling where x = 0.
 const int PARTS = 6;
 
-float changing_path(float outer, float inner, float x0, float x1, float y, float rise)
+float changing_path(
+    float outer, float inner, float x0, float x1, float fall, float rise, vec4 dry, float slope
+)
 {
     float half_chord = sqrt(outer);
     x0 = clamp(x0, -half_chord, half_chord);
@@ -34,62 +38,105 @@ float changing_path(float outer, float inner, float x0, float x1, float y, float
     for (int i = 0; i < PARTS; ++i) {
         float a = mix(x0, x1, float(i) / float(PARTS));
         float b = mix(x0, x1, float(i + 1) / float(PARTS));
-        float fall = veil_span.y - (y + rise * 0.5 * (a + b));
-        float share = extinction_arrived(fall, veil_dry, veil_load.z);
+        float share = extinction_arrived(fall - rise * 0.5 * (a + b), dry, slope);
         path += share * (over_level(outer, a, b) - over_level(inner, a, b));
     }
     return path;
 }
 
-void main()
+// -1 to 1, smooth, of period 1.
+float wave(float x)
 {
-    // Per unit of depth along the camera's forward axis.
-    float per_depth = 1.0 / dot(vs_ray, camera_forward.xyz);
-    vec3 ray = vs_ray * per_depth;
-    vec4 own = vs_own * per_depth;
-    // Where the host has no depth, one texel stands for all.
-    ivec2 texel = min(ivec2(gl_FragCoord.xy - view_origin.xy), textureSize(scene_depth, 0) - 1);
-    float depth = texelFetch(scene_depth, texel, 0).r;
-    float t1 = depth >= 1.0 ? 1e5 : view_depth.y / (depth * 2.0 - 1.0 + view_depth.x);
-    float t0 = 0.0;
-    float rise = abs(ray.y) < 1e-6 ? 1e-6 : ray.y;
-    float cut = (veil_span.y - camera_position.y) / rise;
-    if (rise > 0.0) t1 = min(t1, cut);
-    else t0 = max(t0, cut);
+    float y = abs(fract(x) * 2.0 - 1.0);
+    return y * y * (6.0 - 4.0 * y) - 1.0;
+}
 
-    // The drops' share falls from 1 at the observer to 0 at the distance veil_load.y, overhead too:
+// Rays of rain within a shaft, seen from afar; u: shares of its half width.
+float rays_of_rain(float u)
+{
+    return 0.5 * wave(u * 0.83) + 0.3 * wave(u * 2.17 + 0.37) + 0.2 * wave(u * 5.71 + 0.71);
+}
+
+// Of one area: its light times its optical depth, and that. The index is a constant wherever this is
+// called: a software driver gathers what a variable one asks for, at four times the cost.
+vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_t)
+{
+    vec4 from = veil_from[i];
+    vec4 load = veil_load[i];
+    float cut = load.z * over_rise;
+    float t0 = rise > 0.0 ? 0.0 : max(cut, 0.0);
+    float t1 = rise > 0.0 ? min(end, cut) : end;
+
+    // The drops' share falls from 1 at the observer to 0 at the distance load.y, overhead too:
     // by the level distance alone, there would be a hole in the veil at the zenith.
-    float length2 = dot(ray, ray);
-    if (veil_load.y > 0.0) {
-        float shown = veil_load.y * inversesqrt(length2);
-        float x = min(t1 / shown, 1.0);
-        t0 = max(t0, shown * x * (1.0 - 0.5 * x));
-    }
-    if (t1 <= t0) discard;
+    float shown = max(load.y, 1e-4) / per_t;
+    float x = min(t1 / shown, 1.0);
+    t0 = max(t0, load.y > 0.0 ? shown * x * (1.0 - 0.5 * x) : 0.0);
 
     // f(t) = lowest + a (t - middle)^2. The ray's distance from the middle comes from the cross
     // product: as a difference it would drown where a thin area is far off.
-    float over_a = 1.0 / max(dot(own.xy, own.xy), 1e-12);
-    float middle = -own.z * over_a;
-    float lowest = own.w * own.w * over_a;
+    vec4 turn = veil_turn[i];
+    vec2 own = vec2(dot(turn.xy, ray.xz), dot(turn.zw, ray.xz));
+    float over_a = 1.0 / max(dot(own, own), 1e-12);
+    float middle = -dot(from.xy, own) * over_a;
+    float aside = from.x * own.y - from.y * own.x;
+    float lowest = aside * aside * over_a;
     float outer = max((1.0 - lowest) * over_a, 0.0);
-    float inner = max((veil_shape.z - lowest) * over_a, 0.0);
-    t0 -= middle;
-    t1 -= middle;
-    float path;
-    if (veil_dry == SETTLED) path = over_level(outer, t0, t1) - over_level(inner, t0, t1);
-    else path = changing_path(outer, inner, t0, t1, camera_position.y + ray.y * middle, ray.y);
-    float per_t = sqrt(length2);
-    path *= per_t / (over_a * (1.0 - veil_shape.z));
-    float optical = veil_load.x * path;
-    float opacity = 1.0 - exp(-optical);
-    if (opacity < 0.002) discard;
-    // What there is to see of the rain lies about one optical depth deep in it, at most in its middle.
+    float inner = max((from.z - lowest) * over_a, 0.0);
     float half_chord = sqrt(outer);
-    float near = max(t0, -half_chord);
-    float along = near + (min(t1, half_chord) - near) / (2.0 + optical);
-    vec3 shown = mix(fog_shown.rgb, veil_tint.rgb, fog_left((along + middle) * per_t));
-    // A pixel's own grain, under one step of an 8-bit target, keeps the soft ramp from banding.
-    float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-    color = vec4(shown + (grain - 0.5) * (1.6 / 255.0) / max(opacity, 0.05), opacity);
+    float x0 = t0 - middle;
+    float x1 = max(t1 - middle, x0);
+#ifdef CHANGING
+    float path = changing_path(
+        outer, inner, x0, x1, load.z - ray.y * middle, ray.y, veil_dry[i], from.w
+    );
+#else
+    float path = over_level(outer, x0, x1) - over_level(inner, x0, x1);
+#endif
+    float optical = load.x * path * per_t / (over_a * (1.0 - from.z));
+    float near = max(x0, -half_chord);
+    float far = max(min(x1, half_chord), near);
+
+#ifdef CURTAIN
+    // Thin below the cloud; and from afar rays of rain, which the wind slants, ragged at the sides.
+    float fall = load.z - ray.y * (middle + 0.5 * (near + far));
+    vec4 curtain = veil_curtain[i];
+    float drift = (curtain.z * own.y - curtain.w * own.x) * fall;  // of what fell straight
+    float u = (aside - drift) * sqrt(over_a);
+    float rays = curtain.x * (0.35 + 0.55 * min(lowest, 1.0)) * rays_of_rain(u + curtain.y);
+    optical *= clamp(fall * load.w, 0.0, 1.0) * (1.0 + rays);
+#endif
+
+    // What there is to see of the rain lies about one optical depth deep in it, at most in its
+    // middle.
+    float along = near + (far - near) / (2.0 + optical);
+    vec4 tint = veil_tint[i];
+    vec3 own_light = tint.rgb * (1.0 - tint.a * optical / (1.0 + optical));
+    own_light = mix(fog_shown.rgb, own_light, fog_left((along + middle) * per_t));
+    return vec4(own_light, 1.0) * optical;
+}
+
+void main()
+{
+    vec3 ray = vs_ray;
+#ifdef EMPTY
+    float end = 1e5;
+#else
+    // Where the host has no depth, one texel stands for all.
+    ivec2 texel = min(ivec2(gl_FragCoord.xy - view_origin.xy), textureSize(scene_depth, 0) - 1);
+    float depth = texelFetch(scene_depth, texel, 0).r;
+    float end = depth >= 1.0 ? 1e5 : view_depth.y / (depth * 2.0 - 1.0 + view_depth.x);
+#endif
+    float rise = abs(ray.y) < 1e-6 ? 1e-6 : ray.y;
+    float over_rise = 1.0 / rise;
+    float per_t = sqrt(dot(ray, ray));
+    vec4 seen = seen_of(0, ray, end, rise, over_rise, per_t);
+#if COUNT > 1
+    seen += seen_of(1, ray, end, rise, over_rise, per_t);
+    seen += seen_of(2, ray, end, rise, over_rise, per_t);
+    seen += seen_of(3, ray, end, rise, over_rise, per_t);
+#endif
+    float opacity = 1.0 - exp(-seen.a);
+    if (opacity < 0.002) discard;
+    color = vec4(seen.rgb / seen.a + pixel_grain() / max(opacity, 0.05), opacity);
 }

@@ -1,0 +1,131 @@
+"""The veils of a view as the block Veil holds them: those that are seen, most important first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.frame import FrameData, VeilData, ViewData
+from weather_ecs.gpu.blocks import UniformBlock
+from weather_ecs.gpu.flake_blocks import flake_light
+from weather_ecs.gpu.flash import VEIL as VEIL_FLASH
+from weather_ecs.gpu.flash import flash_of
+from weather_ecs.gpu.view_block import cloud_light, encode, veil_light
+from weather_ecs.physics.veil import longest_path
+
+MOST = 24  # drawn
+TOGETHER = 4  # in one go over the picture; also in shaders/veil.frag
+LEAST = 1.0 / 255.0  # an optical depth that nobody sees
+DARKER = 0.35  # share of its light that thick rain under a cloud lacks
+
+VEIL = UniformBlock(
+    "Veil",
+    ("veil_rays", "vec4", 3),  # the ray in the picture's middle, and what it gains to the edges
+    ("veil_frame", "vec4"),  # the rectangle that is drawn, -1 to 1
+    # World's (x, z) to the ellipse's axes, in shares of its radii.
+    ("veil_turn", "vec4", TOGETHER),
+    # In these from its centre to the camera; level of f of the full rate; slope of the diameters.
+    ("veil_from", "vec4", TOGETHER),
+    # Extinction in 1/m; m to which the drops show it; m up to the ceiling; 1/m, of its soft top.
+    ("veil_load", "vec4", TOGETHER),
+    # Encoded, its colour; the share of it that is lost where it is thick.
+    ("veil_tint", "vec4", TOGETHER),
+    # Its rays of rain: strength, place, and drift in shares of the radii for 1 m of fall.
+    ("veil_curtain", "vec4", TOGETHER),
+    # s, fall times of the drops that are missing; see rain_front.glsl.
+    ("veil_dry", "vec4", TOGETHER),
+)
+
+
+class Seen(NamedTuple):
+    """A veil and what decides whether it is drawn."""
+
+    veil: VeilData
+    optical: float  # its greatest optical depth
+    distance: float  # m, to its rim; 0 inside
+    importance: float
+
+
+def important(view: ViewData, veils: Sequence[VeilData]) -> list[Seen]:
+    """Those that can be told from none, at most MOST, most important first."""
+    x, _, z = view.position
+    fog = view.frame.fog.extinction
+    found = []
+    for veil in veils:
+        optical = veil.extinction * longest_path(veil.shape)
+        distance = max(math.hypot(veil.axis[0] - x, veil.axis[1] - z) - veil.shape[0], 0.0)
+        if optical > LEAST:
+            seen = (1.0 - math.exp(-optical)) * math.exp(-fog * distance)
+            size = veil.shape[0] / (veil.shape[0] + distance)
+            found.append(Seen(veil, optical, distance, seen * size))
+    found.sort(key=lambda each: -each.importance)
+    return found[:MOST]
+
+
+def rays(view: ViewData) -> NDArray:
+    """(3, 3): the ray through the picture's middle, and what it gains to the right and upwards."""
+    inverse = np.linalg.inv((view.projection @ view.view)[[0, 1, 3], :3])
+    return np.array(inverse[:, [2, 0, 1]].T)
+
+
+def rectangle(view: ViewData, seen: Sequence[Seen]) -> tuple[float, float, float, float]:
+    """The part of the picture where the veils are: left, bottom, right, top, in -1 to 1."""
+    whole = (-1.0, -1.0, 1.0, 1.0)
+    matrix = (view.projection @ view.view)[[0, 1, 3]]
+    down = matrix[:, 1]  # what a metre of height adds
+    if down[1] + down[2] < 1e-3:
+        return whole
+    ends = []
+    for each in seen:
+        (cx, cz, c, s), (a, b, _) = each.veil.axis, each.veil.shape
+        u, w = np.array([[-a, -a, a, a], [-b, b, -b, b]]) * 1.001
+        y = np.full(4, each.veil.span[1])
+        high = matrix @ np.stack([cx + u * c + w * s, y, cz - u * s + w * c, np.ones(4)])
+        # The edges of its box go on falling where there is no ground, to the picture's lower edge.
+        low = high - down[:, None] * ((high[1] + high[2]) / (down[1] + down[2]))
+        ends += [high, low]
+    x, y, depth = np.concatenate(ends, axis=1)
+    if depth.min() < 1e-3:
+        return whole
+    x, y = np.clip(x / depth, -1.0, 1.0), np.clip(y / depth, -1.0, 1.0)
+    return float(x.min()), -1.0, float(x.max()), float(y.max())
+
+
+def fill(data: NDArray, view: ViewData, seen: Sequence[Seen]) -> None:
+    """Write the block's part that depends on the veils; `data` is a block's record."""
+    x, y, z = view.position
+    flash = flash_of(view.frame, view.position)
+    more = np.zeros(3) if flash is None else VEIL_FLASH * flash.here
+    data["veil_load"][len(seen) :, 0] = 0.0  # no rain
+    for i, each in enumerate(seen):
+        veil = each.veil
+        (cx, cz, c, s), (a, b, inner) = veil.axis, veil.shape
+        ox, oz = x - cx, z - cz
+        data["veil_turn"][i] = (c / a, -s / a, s / b, c / b)
+        data["veil_from"][i] = (
+            (ox * c - oz * s) / a, (ox * s + oz * c) / b, inner, veil.slope
+        )  # fmt: skip
+        soft = 1.0 / veil.top if veil.top > 0.0 else 1e6
+        data["veil_load"][i] = (veil.extinction, veil.shown, veil.span[1] - y, soft)
+        data["veil_tint"][i, :3] = encode(color(view.frame, veil) + more)
+        data["veil_tint"][i, 3] = DARKER * veil.cloud * (1.0 - veil.snow)
+        dx, dz = veil.drift
+        drift = ((dx * c - dz * s) / a, (dx * s + dz * c) / b)
+        data["veil_curtain"][i] = (veil.ragged, veil.phase, *drift)
+        data["veil_dry"][i] = veil.dry
+
+
+def color(frame: FrameData, veil: VeilData) -> NDArray:
+    """Of a veil, linear RGB: rain has the light all round it; a cloud takes what is above."""
+    sky, snow = frame.sky, veil.snow
+    rain = (1.0 - veil.cloud) * veil_light(sky) + veil.cloud * cloud_light(sky)
+    if snow <= 0.0:
+        return np.asarray(rain)
+    # Snow is white in the same light.
+    share = float(rain.sum() / max(veil_light(sky).sum(), 1e-9))
+    white = frame.flakes.brightness * flake_light(sky) + np.array(sky.sun_color) * 0.22
+    return np.asarray((1.0 - snow) * rain + snow * share * white)
