@@ -38,10 +38,14 @@ class WeatherProcessor(esper.Processor):
         due = state.clock.advance(dt)
         state.uids.commit()
         first = state.clock.steps - due + 1
-        for k in range(due):
-            state.step = first + k
-            for system in self._step:
-                system.run(state)
+        state.uids.held = True
+        try:
+            for k in range(due):
+                state.step = first + k
+                for system in self._step:
+                    system.run(state)
+        finally:
+            state.uids.held = False
         for system in self._frame:
             system.run(state)
         self._after()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import esper
 import numpy as np
 from numpy.typing import NDArray
 
@@ -58,21 +59,39 @@ def dry_spells(
 class RainAreaSystem:
     """Carries every rain area by its velocity and its share of the wind, and watches its rain."""
 
+    def __init__(self) -> None:
+        self._pairs: object = None
+        self._known = (-1, -1)  # revision of the areas and number of the fronts, as it left them
+        self._found: list[tuple[int, RainArea]] = []
+        self._entities: list[int] = []
+        self._moving: list[tuple[RainArea, float, float]] = []  # m in a step
+        self._drifts = False
+
     def run(self, state: WeatherState) -> None:
         """Move the areas by one fixed step; at the end of the world they stop."""
-        found = alive(RainArea, state.uids)
-        state.fronts.step(found)
-        wind, profile, moved = state.wind, state.profile, False
-        step, far, put = STEP, FAR, _set
-        for _, area in found:
-            vx, vz = drift_velocity(area, wind, profile) if area.drift > 0.0 else area.velocity
-            if vx or vz:
-                x, z = area.center
-                x += vx * step
-                z += vz * step
-                if not (-far <= x <= far and -far <= z <= far):
-                    x, z = min(max(x, -far), far), min(max(z, -far), far)
-                put(area, "center", (x, z))
-                moved = True
-        if moved:
-            RainArea._revision[0] += 1
+        pairs, revision = esper.get_component(RainArea), RainArea._revision
+        same = pairs is self._pairs and self._known == (revision[0], state.fronts.number)
+        if not same or not all(map(esper.entity_exists, self._entities)):
+            same, self._pairs = False, pairs
+            self._found = alive(RainArea, state.uids)
+            self._entities = [entity for entity, _ in pairs if esper.entity_exists(entity)]
+            self._drifts = any([area.drift > 0.0 for _, area in self._found])
+        state.fronts.step(self._found, same=same)
+        if self._drifts or not same:
+            wind, profile = state.wind, state.profile
+            self._moving = []
+            for _, area in self._found:
+                vx, vz = drift_velocity(area, wind, profile) if area.drift > 0.0 else area.velocity
+                if vx or vz:
+                    self._moving.append((area, vx * STEP, vz * STEP))
+        far, put = FAR, _set
+        for area, dx, dz in self._moving:
+            x, z = area.center
+            x += dx
+            z += dz
+            if not (-far <= x <= far and -far <= z <= far):
+                x, z = min(max(x, -far), far), min(max(z, -far), far)
+            put(area, "center", (x, z))
+        if self._moving:
+            revision[0] += 1
+        self._known = (revision[0], state.fronts.number)

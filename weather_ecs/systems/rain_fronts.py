@@ -42,10 +42,10 @@ class RainFronts:
         self._rates: dict[int, float] = {}  # mm/h, by uid, as of the last step
         self._fronts: dict[int, Front] = {}
 
-    def step(self, found: list[tuple[int, RainArea]]) -> None:
-        """A fixed step begins; `found` are all areas by uid."""
+    def step(self, found: list[tuple[int, RainArea]], *, same: bool = False) -> None:
+        """A fixed step begins; `found` are all areas by uid, `same` if none has another rate."""
         rates = self._rates
-        for uid, area in found:
+        for uid, area in () if same else found:
             if rates.get(uid) != area.rain_rate:
                 front = self.of(uid, area)
                 rates[uid] = area.rain_rate

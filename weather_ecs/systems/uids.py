@@ -24,6 +24,7 @@ class Uids:
         self.next = 0
         self._current: dict[int, int] = {}  # as a commit would make it now
         self.found: dict[type, tuple] = {}  # what `systems.queries` has found with these numbers
+        self.held = False  # while only the systems run: they commit what they make
         self._lists: tuple[list[Any], ...] = ()
         self._counter: object = None
 
@@ -32,6 +33,8 @@ class Uids:
 
         Looking commits to nothing: how often a game draws must not show in its snapshots.
         """
+        if self.held:
+            return self._current
         # esper.clear_database() starts the entity ids again, with a new counter: the same id is
         # then another entity. There is no public sign of it.
         counter = getattr(esper, "_entity_count", None)
@@ -63,9 +66,11 @@ class Uids:
 
     def commit(self) -> None:
         """Number the new entities for good and forget those that are gone."""
+        held, self.held = self.held, False
         if not all(map(esper.entity_exists, self._current)):
             self._lists = ()  # a deletion is pending, of which the lists say nothing
         current = self.current()
+        self.held = held
         if current is not self.by_entity:
             self.by_entity = current
             self.next = max(self.next, max(current.values(), default=-1) + 1)
