@@ -25,6 +25,9 @@ LEAST, MOST_WIDE = 0.7, 12.0  # pixels, half widths of a channel
 LEAST_GLOW, MOST_GLOW = 14.0, 160.0
 FAINTEST = 1e-3
 SOFT = 200.0  # m below the clouds, in which what shines through rain sets in
+# Of what large drops take from a beam half is bent by so little that it stays in it (van de Hulst
+# 1957), which counts for what is this bright.
+BEAM = 0.5
 SAMPLES = 12  # of the rain on the way to it
 
 Floats = NDArray[np.float32]
@@ -81,7 +84,7 @@ class BoltPass:
                 rate * (1.0 - frame.air.snow_share), rate * frame.air.snow_share
             )
         depth = lost / SAMPLES * float(np.linalg.norm(end - eye))
-        if depth < 0.02 or HEAT * float(row["light"]) * math.exp(-depth) < 0.02:
+        if depth < 0.02 or HEAT * float(row["light"]) * math.exp(-BEAM * depth) < 0.02:
             return None
         return Rain(depth, float(frame.areas["ceiling"].max()))
 
@@ -96,7 +99,7 @@ class BoltPass:
         matrix = (view.projection @ rotation).astype(np.float32)
         self._program["bolt_matrix"].write(matrix.T.tobytes())
         hot, glowing = channels(view)
-        left, top = math.exp(-rain.depth), rain.top - view.position[1]
+        left, top = math.exp(-BEAM * rain.depth), rain.top - view.position[1]
         if math.isfinite(top):
             hot, glowing = (_below(pieces, top) for pieces in (hot, glowing))
         ctx = self._ctx
