@@ -127,7 +127,7 @@ def test_a_film(tmp_path: Path) -> None:
 
 
 BAD = [
-    (("--tour", "moon"), "walk, run, crossing, still"),
+    (("--tour", "moon"), "walk, run, crossing, still, clouds, snow"),
     (("--frames", "0"), "1 to"),
     (("--frames", "many"), "1 to"),
     (("--size", "1280"), "1280x720"),
@@ -140,6 +140,7 @@ BAD = [
     (("--quality", "best"), "low, medium, high, ultra, auto"),
     (("--backend", "vulkan"), "auto, compute, feedback"),
     (("--preset", "hail"), "clear, drizzle, light, moderate, heavy, cloudburst"),
+    (("--preset", "hail"), "fair, cloudy, overcast, storm, or a file, NAME.toml"),
     (("--every", "0"), "1 to"),
     (("--walk-speed", "0"), "0.1 to 20"),
     (("--metar", "EDDF"), "--metar"),

@@ -36,7 +36,8 @@ def positions(name: str, frames: int, dt: float = 1 / 60, speed: float = 1.4) ->
 def test_poses_are_finite_and_at_eye_height(name: str) -> None:
     eyes = positions(name, 200)
     assert np.isfinite(eyes).all()
-    assert np.abs(eyes[:, 1] - EYE_HEIGHT).max() < 0.05
+    on_foot = eyes[:140] if name == "clouds" else eyes
+    assert np.abs(on_foot[:, 1] - EYE_HEIGHT).max() < 0.05
 
 
 def test_walk_goes_through_every_stage_in_any_number_of_frames() -> None:
@@ -63,7 +64,7 @@ def test_walk_starts_dry_crosses_and_ends_dry() -> None:
     assert np.abs(np.diff(steps)).max() < 0.2 * steps.max()  # no jerk in speed
 
 
-@pytest.mark.parametrize("name", ["walk", "run", "crossing"])
+@pytest.mark.parametrize("name", ["walk", "run", "crossing", "clouds", "snow"])
 def test_looks_turn_gently(name: str) -> None:
     tour = make_tour(name, GROUND, 599 / 60)
     poses = [tour.pose(i / 60) for i in range(600)]
@@ -97,8 +98,46 @@ def test_one_frame_is_enough() -> None:
 
 
 def test_an_unknown_tour_is_refused() -> None:
-    with pytest.raises(ValueError, match="walk, run, crossing, still"):
-        make_tour("clouds", GROUND, 1.0)
+    with pytest.raises(ValueError, match="walk, run, crossing, still, clouds, snow"):
+        make_tour("moon", GROUND, 1.0)
+
+
+@pytest.mark.parametrize("frames", [30, 600, 6000])
+def test_the_clouds_tour_fills_the_sky_and_flies_over_it(frames: int) -> None:
+    duration = (frames - 1) / 60
+    tour = make_tour("clouds", GROUND, duration)
+    assert tour.play is not None
+    turns = [tour.play.at(u * duration, 0.0) for u in np.linspace(0.0, 1.0, 201)]
+    states = [turn.mood.state for turn in turns]
+    assert states[0] == 0.0
+    assert states[-1] == 1.0
+    assert (np.diff(states) >= 0.0).all()
+    assert all(turn.rains and turn.mood.rain_rate == 0.0 for turn in turns)
+    # The sky needs minutes to fill, however short the tour is, and near rain falls as it does.
+    passed = sum(turn.speed for turn in turns) / len(turns) * duration
+    assert passed >= 200.0 * min(1.0, duration / 0.3)
+    assert {turn.speed for turn in turns[130:]} == {1.0}
+    heights = [tour.pose(u * duration).eye[1] for u in np.linspace(0.0, 1.0, 201)]
+    assert max(heights[:145]) == pytest.approx(EYE_HEIGHT)
+    assert heights[-1] > 4000.0
+    assert tour.pose(duration).pitch < 0.0
+    stages = list(dict.fromkeys(tour.stage(u * duration) for u in np.linspace(0.0, 1.0, 201)))
+    assert stages[0] == "clear"
+    assert stages[-1] == "over the tops"
+
+
+@pytest.mark.parametrize("frames", [30, 600, 60_000])
+def test_the_snow_tour_begins_snows_and_stops(frames: int) -> None:
+    duration = (frames - 1) / 60
+    play = make_tour("snow", GROUND, duration).play
+    assert play is not None
+    before, during, after = (play.at(u * duration, 0.0) for u in (0.02, 0.55, 0.95))
+    assert before.mood.rain_rate == after.mood.rain_rate == 0.0
+    assert during.mood.rain_rate == 3.5
+    assert max(turn.mood.temperature for turn in (before, during, after)) < 0.0
+    assert during.speed == 1.0
+    assert before.speed >= 1.0
+    assert 1.0 <= (during.settling or 0.0) <= 100.0
 
 
 @given(st.lists(st.floats(-10, 10), min_size=3, max_size=8))
