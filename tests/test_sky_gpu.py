@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import esper
 import moderngl
@@ -11,10 +12,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tests.gl_host import Host, read_state
 from tests.views import look_from, perspective
 from weather_ecs import Weather, glsl
 from weather_ecs.components import Atmosphere, Fog, Observer, RainArea, RainContainer
 from weather_ecs.errors import ContextError, InvalidValueError
+from weather_ecs.gpu.gl import GL
+from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.physics import sky_map
 
 SIZE = (480, 270)
@@ -252,6 +256,38 @@ def test_sun_moon_and_stars_are_where_they_stand(stage: Stage) -> None:
     dark = stage.picture(-math.pi / 2, 0.7)
     stage.air.stars = 0.0
     assert (dark - stage.picture(-math.pi / 2, 0.7)).max() > 0.3
+
+
+def test_the_hosts_state_comes_back(ctx: moderngl.Context, gl: GL) -> None:
+    kept: list[Any] = []
+
+    def keep(thing: Any) -> Any:
+        kept.append(thing)
+        return thing
+
+    outer = StateGuard(ctx, gl)
+    with outer:
+        stage = Stage(ctx, halo=1.0)
+        host = Host(ctx, gl, keep, 11)
+        for time in ("2025-06-21T18:00:00Z", "2025-01-13T22:00:00Z"):
+            stage.air.time = time
+            esper.process(0.0)
+            stage.weather.draw(look_from((0, 2, 0), 0.0, 0.3), perspective())
+            for _ in range(3):
+                host.scramble()
+                stage.air.time += 60.0
+                esper.process(0.0)
+                before = read_state(gl)
+                stage.weather.draw(look_from((0, 2, 0), 0.0, 0.3), perspective())
+                after = read_state(gl)
+                assert {k: (v, after[k]) for k, v in before.items() if after[k] != v} == {}
+        outer.reset()
+        stage.release()
+    outer.release()
+    for thing in reversed(kept):
+        thing.release()
+    while gl.error() == 0x0506:  # the window's framebuffer was bound; there is none
+        pass
 
 
 def test_fog_covers_the_sky(stage: Stage) -> None:
