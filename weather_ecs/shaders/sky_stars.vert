@@ -24,5 +24,5 @@ void main()
     float seen = star_law.y * twinkle * sky_left(d) * pow(10.0, 0.17 * min(margin, 8.0));
     float size = clamp(0.9 + 0.42 * seen, 1.4, 4.5) * sky_law.y;
     gl_PointSize = size;
-    vs_light = in_tint * min(0.30 * seen * 2.0 * sky_law.y * sky_law.y / (size * size) + 0.04 * seen, 1.0);
+    vs_light = in_tint * min(0.48 * seen * 2.0 * sky_law.y * sky_law.y / (size * size) + 0.04 * seen, 1.0);
 }
