@@ -299,6 +299,28 @@ def test_dry_under_a_roof_wet_upon_it_and_dry_where_it_does_not_rain(maps: Maps)
     assert read.shape == (place.size, place.size, 3)
 
 
+@pytest.mark.parametrize("wind", [(0.0, 0.0, 0.0), (3.0, 0.0, -2.0)])
+def test_lamps_and_poles_leave_no_dry_stain(maps: Maps, wind: Point) -> None:
+    pole = box(5, placed((5, 1.5, 0), (0.1, 1.5, 0.1)))
+    head = box(6, placed((5, 3.2, 0), (0.3, 0.2, 0.3)))
+    walk(maps, 20.0, lambda t: scene(t, LEVEL, pole, head, wind=wind))
+    open_ground = maps.at(3.0, 0.0, 6.0)
+    assert open_ground > 0.1
+    # Where the head's shadow lies, and along the upper half of the pole's.
+    slope = np.array([wind[0], wind[2]]) / fall_speed_over(np.array([40.0]))
+    for high, aside in ((3.2, 0.0), (3.2, 0.3), (2.6, 0.0), (2.0, 0.0)):
+        x, z = np.array([5.0 + aside, 0.0]) + high * slope
+        assert maps.at(x, 0.0, z) > 0.7 * open_ground, (high, aside)
+
+
+def test_a_wall_keeps_the_rain_off_behind_it(maps: Maps) -> None:
+    wall = box(7, placed((5, 1.5, 0), (0.1, 1.5, 6.0)))
+    walk(maps, 20.0, lambda t: scene(t, LEVEL, wall, wind=(8.0, 0.0, 0.0)))
+    # Rain meets the wall there and not the ground.
+    assert maps.at(7.0, 0.0, 0.0, what=1) > 1.0
+    assert abs(maps.at(11.0, 0.0, 0.0, what=1)) < 0.1 < maps.at(11.0, 0.0, 0.0)
+
+
 def test_snow_lies_on_roof_and_ground_melts_and_wets_them(maps: Maps) -> None:
     roof = box(1, placed((5, 4, 3), (4, 0.1, 3)))
     walk(maps, 30.0, lambda t: scene(t, LEVEL, roof, air=SNOW))

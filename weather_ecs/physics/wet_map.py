@@ -23,6 +23,8 @@ RINGS = (0.6, 2.0)  # m, radii in which a hollow is looked for
 EDGE = 0.6  # m, as in shaders/shelter.glsl
 SAME = 0.5  # m between heights of what may be one surface
 COVERED = 0.1  # m by which a moving thing stands over it
+SLENDER = 0.8  # m, width of what hides nothing of what lies below it
+FAR_ABOVE = 1.0  # m over what is beside it
 NOTHING = -1e9  # m, height of no surface
 
 
@@ -91,7 +93,15 @@ def surface(place: MapPlace, footprint: Footprint, still: NDArray, cover: NDArra
     known = four > NOTHING
     y = np.where(known, four, np.inf).min(axis=0)
     y = np.where(np.isinf(y), NOTHING, y)
-    reached = known & (four - y <= SAME) & (tops - y <= np.maximum(four - y, 0.0) + COVERED)
+    wide = max(math.floor(0.5 * (SLENDER / texel - 1.0) + 0.5), 1)
+    sides = [(-wide, 0), (1, -wide), (-wide, -wide), (1 + wide, -wide)]
+    pairs = [np.maximum(fetch(heights, a, b), fetch(heights, 1 - a, 1 - b)) for a, b in sides]
+    beside = np.min(pairs, axis=0)
+    slender = (beside > NOTHING) & (beside < four.max(axis=0) - FAR_ABOVE)
+    y = np.where(slender & (beside < y - FAR_ABOVE), beside, y)
+    reached = (
+        known & ((four - y <= SAME) | slender) & (tops - y <= np.maximum(four - y, 0.0) + COVERED)
+    )
     sx, sz = footprint.slope
     ends = [near(*at, y) for at in ((2, 0), (2, 1), (-1, 0), (-1, 1))]
     rise_x = (ends[0] + ends[1] - ends[2] - ends[3]) / (6.0 * texel)

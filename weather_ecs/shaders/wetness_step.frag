@@ -1,8 +1,9 @@
 // One texel of the wetness map: water and snow on what rain meets first there, and its height.
 // physics/wet_map.py is its oracle. The map lies like the collision heightmap, every texel over two
 // by two of its own, of whose surfaces it takes the lowest: thin rails do not hide the ground below
-// them, they keep a share of the rain off it. What lay at the same place of the world in the map
-// before is carried on.
+// them, they keep a share of the rain off it. What is slender and far above it, a lamp or a pole, does
+// neither: drops of all sizes and gusts slant in below it. What lay at the same place of the world in
+// the map before is carried on.
 #include "wetness_law.glsl"
 #include "snow_cover.glsl"
 #include "rain_area.glsl"
@@ -19,6 +20,8 @@ out vec4 water;  // mm; m, height of the surface, NOTHING where there is none; m
 const float NOTHING = -1e9;
 const float SAME = 0.5;     // m between heights of what may be one surface
 const float COVERED = 0.1;  // m by which a moving thing stands over it
+const float SLENDER = 0.8;  // m, width of what hides nothing
+const float FAR_ABOVE = 1.0;  // m over what is beside it
 
 vec2 open_water(vec2 p)
 {
@@ -38,6 +41,12 @@ float cover_at(ivec2 at)
 {
     at = clamp(at, ivec2(0), ivec2(int(shelter_size.x) - 1));
     return wet_heights.x - texelFetch(wet_cover, at, 0).r * shelter_size.y;
+}
+
+// The higher of two heights on either side of a texel's two by two.
+float beside_of(ivec2 at, ivec2 off)
+{
+    return max(height_at(at + off), height_at(at + 1 - off));
 }
 
 // A neighbour's height; the surface's own where that is another surface.
@@ -70,6 +79,12 @@ void main()
     float y = min(min(found.x, found.y), min(found.z, found.w));
     water = vec4(0.0, NOTHING, 0.0, 0.0);
     if (y > 1e8) return;
+    int wide = max(int(floor(0.5 * (SLENDER / shelter_size.z - 1.0) + 0.5)), 1);
+    float beside = min(min(beside_of(at, ivec2(-wide, 0)), beside_of(at, ivec2(1, -wide))),
+                       min(beside_of(at, ivec2(-wide)), beside_of(at, ivec2(1 + wide, -wide))));
+    float top = max(max(heights.x, heights.y), max(heights.z, heights.w));
+    bool slender = beside > NOTHING && beside < top - FAR_ABOVE;
+    if (slender && beside < y - FAR_ABOVE) y = beside;
     water.g = y;
     vec3 p = vec3(place.x - y * shelter_fall.x, y, place.y - y * shelter_fall.y);
 
@@ -101,7 +116,7 @@ void main()
         }
     vec4 tops = vec4(cover_at(at), cover_at(at + ivec2(1, 0)), cover_at(at + ivec2(0, 1)),
                      cover_at(at + ivec2(1)));
-    vec4 open = step(heights - y, vec4(SAME)) * step(tops - y, max(heights - y, 0.0) + COVERED);
+    vec4 open = step(slender ? vec4(0.0) : heights - y, vec4(SAME)) * step(tops - y, max(heights - y, 0.0) + COVERED);
     rate *= dot(known, open) / dot(known, vec4(1.0));
     vec2 rise = vec2(near_height(at + ivec2(2, 0), y) + near_height(at + ivec2(2, 1), y)
                          - near_height(at + ivec2(-1, 0), y) - near_height(at + ivec2(-1, 1), y),
