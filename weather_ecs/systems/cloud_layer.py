@@ -122,6 +122,15 @@ class LayerClouds:
         if other or len(going):
             self._form(mix, mix.target - array.standing)
 
+    def complete(self, mix: Mix) -> None:
+        """Clouds form or dissolve where they stand until there are as many as the mix has."""
+        array = self.array
+        for _ in range(array.standing - mix.target):
+            excess = self._excess(mix)
+            self._dissolve(excess if excess is not None else array.oldest())
+        if array.standing < mix.target:
+            self._form(mix, mix.target - array.standing)
+
     # Parts of a tick
 
     def _carry(self, velocity: tuple[float, float], box: Box) -> tuple[float, float]:

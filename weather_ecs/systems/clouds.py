@@ -30,7 +30,7 @@ def start_layer(state: WeatherState, uid: int, layer: SkyLayer) -> LayerClouds:
     record = LayerClouds(state.seed, uid, box, (0.0, 0.0))
     record.wind = (state.wind[0], state.wind[2])
     record.velocity = _velocity(state, layer, record.wind)
-    record.known = _known(layer)
+    record.known = known_of(layer)
     record.fill(nearest_mix(layer.skies, layer_state(state, uid)))
     return record
 
@@ -93,11 +93,12 @@ class CloudSystem:
         known = self._mixes.get(uid)
         if known is None or known[0] != now:
             mix = mix_at(layer.skies, now[1])
-            known = self._mixes[uid] = (now, mix, _known(layer))
+            known = self._mixes[uid] = (now, mix, known_of(layer))
         return known[1], known[2]
 
 
-def _known(layer: SkyLayer) -> frozenset[tuple[float, str]]:
+def known_of(layer: SkyLayer) -> frozenset[tuple[float, str]]:
+    """State of the sky and name of each model of a layer."""
     return frozenset(
         (sky.state, model if isinstance(model, str) else model.name)
         for sky in layer.skies

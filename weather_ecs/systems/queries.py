@@ -23,7 +23,7 @@ def alive(component_type: type[C], uids: Uids) -> list[tuple[int, C]]:
     known = uids.found.get(component_type)
     # esper keeps its answers until something comes or goes; a pending deletion is no such thing.
     same = known is not None and known[0] is pairs and known[1] is current
-    if known is not None and same and all(map(exists, known[2])):
+    if known is not None and same and (uids.held or all(map(exists, known[2]))):
         return list(known[3])
     found = [(current[entity], component) for entity, component in pairs if exists(entity)]
     if len(found) > 1:

@@ -63,19 +63,20 @@ class RainAreaSystem:
         self._pairs: object = None
         self._known = (-1, -1)  # revision of the areas and number of the fronts, as it left them
         self._found: list[tuple[int, RainArea]] = []
-        self._entities: list[int] = []
+        self._uids: object = None
         self._moving: list[tuple[RainArea, float, float]] = []  # m in a step
         self._drifts = False
 
     def run(self, state: WeatherState) -> None:
         """Move the areas by one fixed step; at the end of the world they stop."""
         pairs, revision = esper.get_component(RainArea), RainArea._revision
-        same = pairs is self._pairs and self._known == (revision[0], state.fronts.number)
-        if not same or not all(map(esper.entity_exists, self._entities)):
-            same, self._pairs = False, pairs
+        uids = state.uids.current()
+        same = pairs is self._pairs and uids is self._uids
+        same = same and self._known == (revision[0], state.fronts.number)
+        if not same:
+            self._pairs, self._uids = pairs, uids
             self._found = alive(RainArea, state.uids)
-            self._entities = [entity for entity, _ in pairs if esper.entity_exists(entity)]
-            self._drifts = any([area.drift > 0.0 for _, area in self._found])
+            self._drifts = any(area.drift > 0.0 for _, area in self._found)
         state.fronts.step(self._found, same=same)
         if self._drifts or not same:
             wind, profile = state.wind, state.profile

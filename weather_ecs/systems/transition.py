@@ -10,6 +10,8 @@ import esper
 from weather_ecs.clock import STEP
 from weather_ecs.components import Air, Climate, Fog, Lightning, RainArea, Sky, SkyLayer, Wind
 from weather_ecs.components._base import Component, set_unchecked
+from weather_ecs.systems.cloud_mix import mix_at
+from weather_ecs.systems.clouds import known_of
 from weather_ecs.systems.course import CLEARED, FINISHED, UNDER_WAY, Conditions, Course, LayerWay
 from weather_ecs.systems.state import WeatherState
 
@@ -232,10 +234,15 @@ def _state(sky: Sky) -> float:
 
 def _settle(state: WeatherState, course: Course) -> None:
     """At the end of the way: of each layer's skies only the last one stays."""
-    for layer in _owned_layers(state, course).values():
+    for uid, layer in _owned_layers(state, course).items():
         if layer.skies:
             layer.skies = layer.skies[-1:]
             layer.turnover = 0.0
+            record = state.clouds.layers.get(uid)
+            if record is not None:
+                mix = mix_at(layer.skies, layer.skies[0].state)
+                record.renew(known_of(layer), mix)
+                record.complete(mix)
 
 
 def _clear(state: WeatherState, course: Course) -> None:
