@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -10,14 +11,14 @@ import esper
 import moderngl
 import pytest
 
-from demo_game.cloudscape import DURATION, SETTLED
+from demo_game.cloudscape import SETTLED
 from demo_game.game import Game
 from demo_game.mood import CLIMATE, STATES
 from demo_game.place import Place
 from demo_game.play_keys import play_key
 from demo_game.settings import Settings
 from demo_game.tours import make_tour
-from weather_ecs.components import Cloud, SkyLayer
+from weather_ecs.components import Climate, Cloud, SkyLayer
 from weather_ecs.errors import WeatherFileError
 from weather_ecs.presets import PRESETS
 
@@ -48,7 +49,8 @@ def test_a_cloud_hangs_over_each_rain_and_goes_with_it(game: Game) -> None:
     game.update(0.1)
     for cloud, area in zip(clouds_of(game), game.areas, strict=True):
         assert cloud.growth > 0.9
-        assert (cloud.position[0], cloud.position[2]) == area.center
+        # It is placed before the weather moves its area on: by 0.1 s of wind at most.
+        assert math.dist((cloud.position[0], cloud.position[2]), area.center) < 1.5
         assert 0.0 < cloud.position[1] < area.ceiling  # the rain comes out of it
     x = clouds_of(game)[1].position[0]
     for _ in range(20):
@@ -75,17 +77,19 @@ def test_presets_turn_the_sky_and_it_comes_to_rest(game: Game) -> None:
 
 def test_the_climate_runs_to_the_storm_and_back(game: Game) -> None:
     game.update(0.1)
+    (climate,) = [climate for _, climate in esper.get_component(Climate)]
+    climate.elapsed, climate.duration = 20.0, 40.0
     assert "storm" in (play_key("C", game, SHOWN) or "")
-    for _ in range(int(DURATION)):
-        game.update(1.0)
+    for _ in range(30):
+        game.update(2.0)
     assert game.state == CLIMATE
     assert game.weather.stats.state == 1.0
     assert game.areas[0].rain_rate == game.areas[1].rain_rate == 0.0
     assert max(area.rain_rate for area in game.areas[2:]) > 1.0
     windy = game.mood.current.wind_speed
     assert "clears" in (play_key("C", game, SHOWN) or "")
-    for _ in range(int(DURATION)):
-        game.update(1.0)
+    for _ in range(25):
+        game.update(2.0)
     assert game.weather.stats.state == 0.0
     assert game.mood.current.wind_speed < windy
     play_key("_5", game, SHOWN)
