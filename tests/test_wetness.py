@@ -167,6 +167,34 @@ def test_a_shower_that_passes_leaves_wet_ground_that_dries():
     assert seen[-1] == pytest.approx(max(seen) * math.exp(-61 / DRYING), rel=0.03)
 
 
+def test_ground_under_moving_areas_follows_the_law():
+    """Against the law itself in steps of 0.1 s: within 5 % of W, or a cell's width of the place."""
+    rng = np.random.default_rng(4)
+    points = np.array([(x, z) for x in range(-150, 500, 25) for z in range(-120, 121, 40)], float)
+    for speed, rate, edge in ((3.0, 12.0, 20.0), (9.0, 60.0, 30.0), (20.0, 90.0, 10.0)):
+        with fresh_world(), Weather() as weather:
+            heading = float(rng.uniform(0, 3))
+            it = RainArea(
+                (-60, 0), (70, 45), rate, heading, soft_edge=edge, velocity=(speed, 0.1 * speed)
+            )
+            esper.create_entity(it)
+            law, center = np.zeros(len(points)), np.array(it.center)
+            for _ in range(3):
+                for _ in range(133):
+                    center = center + np.array(it.velocity) * 0.1
+                    at = points - center
+                    share = area_shares(at[:, 0], at[:, 1], (0, 0), it.radii, heading, edge)
+                    law = settle(law, share * rate / 3600.0, FILM, 0.1)
+                rain(13.3, 0.1)
+                near = []
+                for x, z in points.tolist():
+                    round_it = [(x + dx, 0, z + dz) for dx in (-4, 0, 4) for dz in (-4, 0, 4)]
+                    near.append([weather.sample(p).wetness for p in round_it])
+                low, high = np.min(near, axis=1), np.max(near, axis=1)
+                assert (low <= 1.05 * law + 2e-3).all() and (high >= 0.95 * law - 2e-3).all()
+                assert law.max() > 0.01
+
+
 def test_overlapping_areas_add_up_and_never_hold_more_than_a_film():
     weather = Weather()
     for size in (20, 80, 400):
