@@ -13,7 +13,9 @@ import pytest
 from tests.cloud_stage import SETTINGS, CloudStage, cloud_stage, clouds, shape, sky_frame, view_of
 from tests.conftest import living
 from tests.gl_host import Host, read_state
+from weather_ecs.errors import ShaderError
 from weather_ecs.frame import CloudLook, FrameData, SkyLight
+from weather_ecs.gpu import cloud_pass
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
@@ -310,6 +312,26 @@ def test_everything_is_given_back(ctx: moderngl.Context) -> None:
         stage.renderer.forget(0)
         stage.draw(sky_frame(rows, *shapes), pitch=0.3)
     assert living(gl) == before
+
+
+@pytest.mark.parametrize("part", ["CloudPrograms", "RowTexture", "CloudInside", "CloudStore"])
+def test_what_cannot_be_made_is_tried_again(
+    ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, part: str
+) -> None:
+    def broken(*args: Any, **kwargs: Any) -> None:
+        raise ShaderError("the driver does not like it")
+
+    rows, shapes = field(6)
+    with cloud_stage(ctx) as stage:
+        monkeypatch.setattr(cloud_pass, part, broken)
+        alive: list[dict[str, set[int]]] = []
+        for _ in range(3):
+            with pytest.raises(ShaderError):
+                stage.draw(sky_frame(rows, *shapes), pitch=0.3)
+            alive.append(living(GL()) | {"query": set()})
+        assert alive[0] == alive[1] == alive[2]
+        monkeypatch.undo()
+        assert stage.cover(stage.draw(sky_frame(rows, *shapes), pitch=0.3)).max() > 0.1
 
 
 def test_in_a_cloud_the_view_is_white_and_one_s_own_wings_are_free(stage: CloudStage) -> None:

@@ -57,7 +57,8 @@ def test_more_work_takes_longer(
         return timer.latest_ms
 
     measured(10)  # the first draw compiles
-    assert measured(400_000) > measured(10)
+    # The least of several: on a busy machine any of them may have waited.
+    assert min(measured(400_000) for _ in range(2)) > min(measured(10) for _ in range(8))
 
 
 def test_primitives_are_counted(

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import ExitStack
 from itertools import groupby
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, TypeVar
 
 import moderngl
 import numpy as np
@@ -35,6 +36,15 @@ SOFT_HEIGHT = 400.0  # m over the ground, below which billboards are soft where 
 INSIDE = 0.5  # of a cloud's reach: what is nearer to its middle is behind its picture
 SOFT_REACH = 1500.0  # m, as far as they are
 STILL = 1.0 / 60.0  # s, that a draw counts for at least: a paused sky still takes over its light
+
+
+class Releasable(Protocol):
+    """What holds OpenGL objects."""
+
+    def release(self) -> object: ...
+
+
+Thing = TypeVar("Thing", bound=Releasable)
 
 
 class CloudSettings(Protocol):
@@ -70,14 +80,17 @@ class CloudPass:
         self.impostors_on = True  # False: billboards alone; for tests and comparisons
 
     def _make(self) -> CloudStore:
+        """All of it, or nothing: what fails is tried again at the next draw."""
         ctx, shaders = self._ctx, self._shaders
-        self._store = CloudStore(ctx)
-        self._programs = CloudPrograms(ctx, shaders)
-        self._stream = CloudStream(ctx)
-        self._rows = RowTexture(ctx, 6)
-        self._quads = RowTexture(ctx, 8)
-        self._rays = CloudRays(ctx, shaders, UNITS)
-        self._inside = CloudInside(ctx, shaders)
+        with ExitStack() as undo:
+            self._programs = _kept(undo, CloudPrograms(ctx, shaders))
+            self._stream = _kept(undo, CloudStream(ctx))
+            self._rows = _kept(undo, RowTexture(ctx, 6))
+            self._quads = _kept(undo, RowTexture(ctx, 8))
+            self._rays = _kept(undo, CloudRays(ctx, shaders, UNITS))
+            self._inside = _kept(undo, CloudInside(ctx, shaders))
+            self._store = CloudStore(ctx)
+            undo.pop_all()
         return self._store
 
     @property
@@ -300,6 +313,11 @@ class CloudPass:
         self._programs.release()
         self._store.release()
         self._store = None
+
+
+def _kept(undo: ExitStack, thing: Thing) -> Thing:
+    undo.callback(thing.release)
+    return thing
 
 
 def _numbers(view: ViewData, light: Surround) -> NDArray[np.float64]:

@@ -363,9 +363,8 @@ class Renderer:
             return
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
-        self._counter.begin()
-        self._rain.draw(view)
-        self._counter.end()
+        with self._counter:
+            self._rain.draw(view)
 
     def forget(self, key: int) -> None:
         """Give back what belongs to an observer who is gone."""
