@@ -203,7 +203,11 @@ def oracle(at: Camera, data: VeilData, end: Any = math.inf) -> np.ndarray:
         at.position, rays_of(at), end, data.axis, data.shape, data.span[1], data.shown,
         data.dry, (data.slope / 4.1) ** (-1.0 / 0.21),
     )  # fmt: skip
-    return veil.opacity(path, data.extinction)
+    curtain = veil.curtain_share(
+        at.position, rays_of(at), end, data.axis, data.shape, data.span[1], data.shown,
+        data.top, data.ragged, data.phase, data.drift,
+    )  # fmt: skip
+    return veil.opacity(path * curtain, data.extinction)
 
 
 def assert_same(found: np.ndarray, expected: np.ndarray, atol: float = 2e-3) -> None:
@@ -270,6 +274,50 @@ SCENES = {
         shaft(shape=(300.0, 3.0, 0.2), extinction=0.2),
     ),
 }
+
+
+CURTAIN: dict[str, Any] = {"top": 60.0, "ragged": 0.8, "phase": 2.3, "drift": (0.5, -0.2)}
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["from outside", "from inside", "looking up", "above the ceiling", "far off", "begins",
+     "from the middle, with drops", "wide angle", "narrow angle", "straight up"],
+)  # fmt: skip
+def test_rain_under_a_cloud_is_that_of_the_oracle(stage: Stage, name: str) -> None:
+    at, plain = SCENES[name]
+    data = replace(plain, **CURTAIN)
+    expected = oracle(at, data)
+    assert_same(stage.draw(only(at, data)), expected)
+    assert np.abs(expected - oracle(at, plain)).max() > 0.005  # there is something to tell
+
+
+def test_a_shaft_is_soft_at_the_top_and_as_dense_on_the_whole() -> None:
+    """Towards the ceiling it fades to nothing; rays take from one place what they give another."""
+    at = camera((0.0, 1.7, 1500.0), NORTH, 0.05, vertical=14.0)
+    plain = shaft(shape=(70.0, 45.0, 0.16), extinction=0.004)
+    uneven = replace(plain, **{**CURTAIN, "top": 0.0})
+    first, second = (-np.log1p(-oracle(at, data)) for data in (plain, uneven))
+    assert second.sum() == pytest.approx(first.sum(), rel=0.1)
+    assert np.abs(second - first).max() > 0.15 * first.max()
+    soft = -np.log1p(-oracle(at, replace(plain, top=80.0)))
+    column = soft.argmax() % SIZE[0]
+    rows = np.flatnonzero(first[:, column] > 0.0)
+    assert soft[rows[-1], column] < 0.1 * first[rows[-1], column]
+    assert soft[rows[-1] // 3, column] == pytest.approx(first[rows[-1] // 3, column])
+
+
+def test_thick_rain_under_a_cloud_is_darker(stage: Stage) -> None:
+    """Than in the open, and the darker the less shines through it."""
+    at = camera(HERE, NORTH)
+    bright, dark = (stage.draw(only(at, shaft(cloud=cloud))) for cloud in (0.0, 1.0))
+    drawn = bright[..., 3] > 0.05
+    assert (dark[..., :3][drawn] < bright[..., :3][drawn] - 0.05).all()
+    thin = drawn & (dark[..., 3] < 0.2)
+    thick = dark[..., 3] > 0.8
+    assert thin.any() and dark[..., 1][thick].mean() < dark[..., 1][thin].mean() - 0.03
+    snow = stage.draw(only(at, shaft(cloud=1.0, snow=1.0)))
+    assert (snow[..., :3][drawn] > dark[..., :3][drawn]).all()
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -54,6 +54,7 @@ class FrameData:
     cloud_look: CloudLook = field(default_factory=CloudLook)
     # Areas whose rain has begun or ended of late, by key: spells without, s; see `physics.front`.
     fronts: Mapping[int, Spells] = field(default_factory=lambda: NO_FRONTS)
+    carried: frozenset[int] = frozenset()  # keys of the areas that clouds carry
     flakes: SnowLook = field(default_factory=SnowLook)
     atmosphere: AtmosphereData | None = None  # None where there is none, or nobody draws
     strikes: NDArray = field(default_factory=lambda: empty(STRIKE_DTYPE))

@@ -20,7 +20,8 @@ from weather_ecs.physics.veil import longest_path
 MOST = 24  # drawn
 TOGETHER = 4  # in one go over the picture; also in shaders/veil.frag
 LEAST = 1.0 / 255.0  # an optical depth that nobody sees
-DARKER = 0.35  # share of its light that thick rain under a cloud lacks
+DARKER = 0.22  # share of its light that thick rain under a cloud lacks
+SHADED_SNOW = 1.35  # times as bright as rain under a cloud
 
 VEIL = UniformBlock(
     "Veil",
@@ -112,7 +113,7 @@ def fill(data: NDArray, view: ViewData, seen: Sequence[Seen]) -> None:
         soft = 1.0 / veil.top if veil.top > 0.0 else 1e6
         data["veil_load"][i] = (veil.extinction, veil.shown, veil.span[1] - y, soft)
         data["veil_tint"][i, :3] = encode(color(view.frame, veil) + more)
-        data["veil_tint"][i, 3] = DARKER * veil.cloud * (1.0 - veil.snow)
+        data["veil_tint"][i, 3] = DARKER * veil.cloud
         dx, dz = veil.drift
         drift = ((dx * c - dz * s) / a, (dx * s + dz * c) / b)
         data["veil_curtain"][i] = (veil.ragged, veil.phase, *drift)
@@ -125,7 +126,7 @@ def color(frame: FrameData, veil: VeilData) -> NDArray:
     rain = (1.0 - veil.cloud) * veil_light(sky) + veil.cloud * cloud_light(sky)
     if snow <= 0.0:
         return np.asarray(rain)
-    # Snow is white in the same light.
-    share = float(rain.sum() / max(veil_light(sky).sum(), 1e-9))
+    # Snow is white in the same light; under a cloud in what comes from the sides.
     white = frame.flakes.brightness * flake_light(sky) + np.array(sky.sun_color) * 0.22
-    return np.asarray((1.0 - snow) * rain + snow * share * white)
+    white = (1.0 - veil.cloud) * white + veil.cloud * SHADED_SNOW * cloud_light(sky)
+    return np.asarray((1.0 - snow) * rain + snow * white)

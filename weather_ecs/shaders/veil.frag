@@ -54,7 +54,7 @@ float wave(float x)
 // Rays of rain within a shaft, seen from afar; u: shares of its half width.
 float rays_of_rain(float u)
 {
-    return 0.5 * wave(u * 0.83) + 0.3 * wave(u * 2.17 + 0.37) + 0.2 * wave(u * 5.71 + 0.71);
+    return 0.5 * wave(u * 0.83) + 0.35 * wave(u * 2.17 + 0.37) + 0.15 * wave(u * 5.71 + 0.71);
 }
 
 // Of one area: its light times its optical depth, and that. The index is a constant wherever this is

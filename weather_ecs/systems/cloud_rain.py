@@ -26,7 +26,7 @@ MOST_FEET = 1000  # kept
 MOST = 24  # areas that clouds carry at once; of more clouds the oldest rain
 FOOT = 0.25  # of a cloud's height: its rain falls from what reaches below
 SHRINK = 0.9  # of that foot's radii
-SOFT = 0.35  # of the smaller radius
+SOFT = 0.6  # of the smaller radius
 LEVELS = 8  # of a rate: changes in small steps would let the ground be computed every second
 CLOSED = 0.9  # of the rectangle that all the areas of a layer cover together at most
 

@@ -198,6 +198,7 @@ class ExtractSystem:
             strikes=self._strikes.rows(state, self._brightness),
             lightning=self._lightning,
             fronts=dry_spells(self._changing, state.fronts, clock.remainder),
+            carried=frozenset(state.clouds.rain.values()),
         )
 
     def _blow(self, state: WeatherState) -> None:

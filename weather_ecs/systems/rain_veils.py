@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +13,10 @@ from weather_ecs.physics.container import Container
 from weather_ecs.physics.front import SETTLED, steepness
 from weather_ecs.systems.falls import falls, shown_distance, snow_shown_distance
 
+_SOFT_TOP = 0.25  # of the height of a cloud's base: in it the rain below becomes dense
+_RAGGED, _FAR = 0.8, 1500.0  # how uneven a shaft is; m from which on it is all of that
+_SHEAR = 0.4  # of the wind: a cloud goes with most of it, and so does what it drops
+_RAIN_SPEED, _SNOW_SPEED = 6.0, 1.5  # m/s, of what shows the slant of a shaft
 _BELOW = 300.0  # m under the container and the eye to which a veil hangs
 
 
@@ -60,7 +65,7 @@ def _veil(
             if count and near:
                 far = shown_distance(look, round(fall.rate, 1), count)
                 shown += near * fall.part * far
-    return VeilData(
+    veil = VeilData(
         axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
         shape=(a, b, min((1.0 - soft / b) ** 2, 0.9999)),
         span=(min(container.bottom, eye) - _BELOW, ceiling),
@@ -69,4 +74,25 @@ def _veil(
         extinction=lost,
         shown=shown,
         snow=snow,
+    )
+    return _under_cloud(veil, frame, key, container.distance) if key in frame.carried else veil
+
+
+def _under_cloud(veil: VeilData, frame: FrameData, key: int, distance: float) -> VeilData:
+    """Rain under a cloud: in its shade, soft where it leaves it, ragged from afar.
+
+    distance: m, to its rim.
+    """
+    far = min(max(distance / _FAR, 0.0), 1.0)
+    # The look's factor stands for what a screen shows less of; a whole shaft needs none.
+    look = (1.0 - veil.snow) * frame.look.veil + veil.snow * frame.flakes.veil
+    speed = _RAIN_SPEED + veil.snow * (_SNOW_SPEED - _RAIN_SPEED)
+    return replace(
+        veil,
+        extinction=veil.extinction * (1.0 + far * (1.0 / max(look, 1.0) - 1.0)),
+        cloud=1.0,
+        top=_SOFT_TOP * max(veil.span[1], 0.0),
+        ragged=_RAGGED * far,
+        phase=key * 0.618034 % 1.0 * 7.0,
+        drift=(_SHEAR * frame.wind[0] / speed, _SHEAR * frame.wind[2] / speed),
     )
