@@ -19,7 +19,7 @@ from weather_ecs.systems.wet_tiles import WetTiles
 
 TICK = 1.0  # s of weather between two looks at what the areas do
 LONGEST = 60  # ticks that one leap spans at most
-LEAP = 10  # the same where areas move or change
+LEAP = 16  # the same where areas move or change
 MOST_STRETCHES = 6  # in one leap
 FASTEST_MELT = 1.0  # mm/s
 NO_AREAS = empty(AREA_DTYPE)
