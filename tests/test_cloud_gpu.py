@@ -15,7 +15,7 @@ from tests.conftest import living
 from tests.gl_host import Host, read_state
 from weather_ecs.errors import ShaderError
 from weather_ecs.frame import CloudLook, FrameData, SkyLight
-from weather_ecs.gpu import cloud_pass
+from weather_ecs.gpu import cloud_kit
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
@@ -314,7 +314,7 @@ def test_everything_is_given_back(ctx: moderngl.Context) -> None:
     assert living(gl) == before
 
 
-@pytest.mark.parametrize("part", ["CloudPrograms", "RowTexture", "CloudInside", "CloudStore"])
+@pytest.mark.parametrize("part", ["CloudPrograms", "RowTexture", "CloudInside"])
 def test_what_cannot_be_made_is_tried_again(
     ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, part: str
 ) -> None:
@@ -323,7 +323,7 @@ def test_what_cannot_be_made_is_tried_again(
 
     rows, shapes = field(6)
     with cloud_stage(ctx) as stage:
-        monkeypatch.setattr(cloud_pass, part, broken)
+        monkeypatch.setattr(cloud_kit, part, broken)
         alive: list[dict[str, set[int]]] = []
         for _ in range(3):
             with pytest.raises(ShaderError):

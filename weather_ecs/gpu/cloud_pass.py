@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import ExitStack
 from itertools import groupby
-from typing import NamedTuple, Protocol, TypeVar
+from typing import NamedTuple, Protocol
 
 import moderngl
 import numpy as np
@@ -13,22 +12,18 @@ from numpy.typing import NDArray
 
 from weather_ecs.frame import ViewData
 from weather_ecs.gpu.cloud_impostors import Impostors, Plan
-from weather_ecs.gpu.cloud_inside import CloudInside
+from weather_ecs.gpu.cloud_kit import make_kit
 from weather_ecs.gpu.cloud_order import CloudOrder
 from weather_ecs.gpu.cloud_programs import (
     BILLBOARDS,
     QUADS,
     SOFT,
     UNITS,
-    CloudPrograms,
     camera_matrix,
 )
-from weather_ecs.gpu.cloud_rays import CloudRays
 from weather_ecs.gpu.cloud_scene import CloudScene, haze_of, rows_of, scene_of, surround_of
 from weather_ecs.gpu.cloud_shadow_pass import CloudShadowPass
 from weather_ecs.gpu.cloud_store import CloudStore
-from weather_ecs.gpu.cloud_stream import CloudStream
-from weather_ecs.gpu.row_texture import RowTexture
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.cloud_light import Surround
 
@@ -36,15 +31,6 @@ SOFT_HEIGHT = 400.0  # m over the ground, below which billboards are soft where 
 INSIDE = 0.5  # of a cloud's reach: what is nearer to its middle is behind its picture
 SOFT_REACH = 1500.0  # m, as far as they are
 STILL = 1.0 / 60.0  # s, that a draw counts for at least: a paused sky still takes over its light
-
-
-class Releasable(Protocol):
-    """What holds OpenGL objects."""
-
-    def release(self) -> object: ...
-
-
-Thing = TypeVar("Thing", bound=Releasable)
 
 
 class CloudSettings(Protocol):
@@ -80,18 +66,11 @@ class CloudPass:
         self.impostors_on = True  # False: billboards alone; for tests and comparisons
 
     def _make(self) -> CloudStore:
-        """All of it, or nothing: what fails is tried again at the next draw."""
-        ctx, shaders = self._ctx, self._shaders
-        with ExitStack() as undo:
-            self._programs = _kept(undo, CloudPrograms(ctx, shaders))
-            self._stream = _kept(undo, CloudStream(ctx))
-            self._rows = _kept(undo, RowTexture(ctx, 6))
-            self._quads = _kept(undo, RowTexture(ctx, 8))
-            self._rays = _kept(undo, CloudRays(ctx, shaders, UNITS))
-            self._inside = _kept(undo, CloudInside(ctx, shaders))
-            self._store = CloudStore(ctx)
-            undo.pop_all()
-        return self._store
+        """What fails is tried again at the next draw."""
+        kit = make_kit(self._ctx, self._shaders)
+        store, self._programs, self._stream, self._rows, self._quads, self._rays, self._inside = kit
+        self._kit, self._store = kit, store
+        return store
 
     @property
     def store(self) -> CloudStore | None:
@@ -306,18 +285,9 @@ class CloudPass:
         for impostors in self._observers.values():
             impostors.release()
         self._observers.clear()
-        if self._store is None:
-            return
-        for thing in (self._inside, self._rays, self._quads, self._rows, self._stream):
-            thing.release()
-        self._programs.release()
-        self._store.release()
-        self._store = None
-
-
-def _kept(undo: ExitStack, thing: Thing) -> Thing:
-    undo.callback(thing.release)
-    return thing
+        if self._store is not None:
+            self._kit.release()
+            self._store = None
 
 
 def _numbers(view: ViewData, light: Surround) -> NDArray[np.float64]:
