@@ -13,9 +13,16 @@ from typing import Any, Protocol, TypeVar
 
 import moderngl
 import pytest
+from hypothesis import HealthCheck, settings
 
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.gl import GL
+
+# The same examples every time, and no clock: a busy machine is no reason to fail.
+settings.register_profile(
+    "steady", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("steady")
 
 NAMES = range(1, 1024)  # drivers hand out the lowest free name
 
