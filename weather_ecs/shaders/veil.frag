@@ -2,6 +2,7 @@
 // the drops near the observer already show. With f an ellipse's implicit function along the ray, a
 // quadratic in t, the rain rate's share is (1 - f) / (1 - f_in), at most 1: its integral is closed.
 // physics/veil.py is the oracle. CHANGING: of rain that begins or ends. EMPTY: before nothing.
+// SCENE: for a texel that stands for several pixels of the scene.
 #include <block:RainView>
 #include <block:Veil>
 #include "fog.glsl"
@@ -116,11 +117,32 @@ vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_
     return vec4(own_light, 1.0) * optical;
 }
 
+#ifdef SCENE
+// Depth in m of the farthest thing of a few around a texel. What is nearer has less than its share of
+// the rain then, and not too much: no halo about a post before a far shaft.
+const float NOTHING = 4000.0;  // m, where there is none among them
+
+float farthest()
+{
+    ivec2 size = textureSize(scene_depth, 0);
+    ivec2 at = ivec2(vs_place * vec2(size));
+    float far = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = clamp(at + ivec2(i & 1, i >> 1) * 4 - 2, ivec2(0), size - 1);
+        float depth = texelFetch(scene_depth, texel, 0).r;
+        far = depth < 1.0 ? max(far, depth) : far;
+    }
+    return far > 0.0 ? view_depth.y / (far * 2.0 - 1.0 + view_depth.x) : NOTHING;
+}
+#endif
+
 void main()
 {
     vec3 ray = vs_ray;
-#ifdef EMPTY
+#if defined(EMPTY)
     float end = 1e5;
+#elif defined(SCENE)
+    float end = farthest();
 #else
     // Where the host has no depth, one texel stands for all.
     ivec2 texel = min(ivec2(gl_FragCoord.xy - view_origin.xy), textureSize(scene_depth, 0) - 1);
@@ -136,7 +158,11 @@ void main()
     seen += seen_of(2, ray, end, rise, over_rise, per_t);
     seen += seen_of(3, ray, end, rise, over_rise, per_t);
 #endif
+#ifdef SCENE
+    color = seen * (1e3 / end);  // for a km of depth
+#else
     float opacity = 1.0 - exp(-seen.a);
     if (opacity < 0.002) discard;
     color = vec4(seen.rgb / seen.a + pixel_grain() / max(opacity, 0.05), opacity);
+#endif
 }
