@@ -227,6 +227,30 @@ def test_occluders_keep_the_room_dry(place: Place) -> None:
     assert roof[:, 2].max() > place.door[2] + 2.0  # over the porch too
 
 
+def crosses(triangles: np.ndarray, start: np.ndarray, way: np.ndarray) -> bool:
+    """Whether a segment meets any of (n, 3, 3) triangles."""
+    a, ab, ac = triangles[:, 0], *(triangles[:, 1:] - triangles[:, :1]).transpose(1, 0, 2)
+    normal = np.cross(ab, ac)
+    det = -(normal @ way)
+    safe = np.where(np.abs(det) < 1e-12, 1.0, det)
+    off = start - a
+    t, turn = (off * normal).sum(axis=1) / safe, np.cross(off, way)
+    u, v = (ac * turn).sum(axis=1) / safe, -(ab * turn).sum(axis=1) / safe
+    inside = (t >= 0.0) & (t <= 1.0) & (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0)
+    return bool((inside & (np.abs(det) > 1e-12)).any())
+
+
+def test_no_rain_comes_in_by_the_windows(place: Place) -> None:
+    shape = {shape.name: shape for shape in place.occluders()}["cabin"]
+    triangles = shape.vertices[shape.indices].astype(float)
+    for opening in [*cabin.WINDOWS, cabin.DOOR]:
+        wall, low, high, first, last = opening
+        out, along, _, away = cabin.WALLS[wall]
+        middle = place.cabin_origin + out * away + along * (low + high) / 2.0
+        middle = middle + np.array([0.0, 0.5 * (first + last) * cabin.ROW, 0.0])
+        assert crosses(triangles, middle + 0.2 * out, -0.5 * out) == (opening != cabin.DOOR)
+
+
 def test_sky_light_under_a_roof_and_in_the_open() -> None:
     roof = Builder()
     roof.box((0.0, 2.0, 0.0), (8.0, 0.2, 8.0), (0.5, 0.5, 0.5))

@@ -111,6 +111,18 @@ def blocks() -> list[Block]:
     return found
 
 
+def pane_blocks(openings: list[tuple[str, float, float, int, int]]) -> list[Block]:
+    """A pane in each opening."""
+    found = []
+    for wall, low, high, first, last in openings:
+        out, along, _, away = WALLS[wall]
+        turn = np.stack([along, (0.0, 1.0, 0.0), out], 1)
+        middle = out * (away - WALL / 2.0) + along * (low + high) / 2.0
+        middle = middle + (0.0, (first + last) * ROW / 2.0, 0.0)
+        found.append(_block(middle, (high - low, (last - first) * ROW, 0.02), rotation=turn))
+    return found
+
+
 def simple_mesh(blocks: list[Block]) -> Mesh:
     """The cabin for the distance: its blocks, dark panes in its openings."""
     build = Builder(29)
@@ -128,11 +140,7 @@ def simple_mesh(blocks: list[Block]) -> Mesh:
         if min(block.size) < 0.145 and block.solid and not block.heading:
             color = palette.BEAM
         build.box(block.center, block.size, color, rotation=block.rotation, material=PLAIN)
-    for wall, low, high, first, last in [cabin.DOOR, *cabin.WINDOWS]:
-        out, along, _, away = WALLS[wall]
-        turn = np.stack([along, (0.0, 1.0, 0.0), out], 1)
-        middle = out * (away - WALL / 2.0) + along * (low + high) / 2.0
-        middle = middle + (0.0, (first + last) * ROW / 2.0, 0.0)
-        size = (high - low, (last - first) * ROW, 0.02)
-        build.box(middle, size, palette.GLASS * 0.25, rotation=turn, material=PLAIN)
+    for pane in pane_blocks([cabin.DOOR, *cabin.WINDOWS]):
+        glass = palette.GLASS * 0.25
+        build.box(pane.center, pane.size, glass, rotation=pane.rotation, material=PLAIN)
     return build.build()

@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .cabin_solid import Block
+from .cabin import WINDOWS
+from .cabin_solid import Block, pane_blocks
 from .figure import PARTS
 from .layout import BIRCH, BUSH, CONIFER
 from .mesh import Builder, Mesh
@@ -74,7 +75,9 @@ def occluders(
     yield Occluder("ground", *_ground_mesh(terrain), False)
     roofs = [b for b in cabin if not b.solid]
     yield Occluder("cabin_roof", *_block_mesh(roofs, origin), False)
-    yield Occluder("cabin", *_block_mesh([b for b in cabin if b.solid], origin), False)
+    # The windows have panes, which are not drawn; the door stands open.
+    closed = [b for b in cabin if b.solid] + pane_blocks(WINDOWS)
+    yield Occluder("cabin", *_block_mesh(closed, origin), False)
     near = Trees(*(getattr(trees, f)[~trees.far] for f in ("shape", "foot", "height", "turn",
                                                            "far")))  # fmt: skip
     yield Occluder("trees", *_tree_mesh(near), False)

@@ -37,6 +37,10 @@ def tower(build: Builder) -> None:
             corner = [(r0 * np.sin(t), low, r0 * np.cos(t)) for t in (a, b)]
             corner += [(r1 * np.sin(t), high, r1 * np.cos(t)) for t in (b, a)]
             build.quad(corner, color, STONE if stone else WOOD)
+            if not stone:  # the boards' lower edge
+                edge = [(r * np.sin(t), low, r * np.cos(t)) for r, t in
+                        ((r0 - 0.05, a), (r0 - 0.05, b), (r0, b), (r0, a))]  # fmt: skip
+                build.quad(edge, palette.PLANK * 0.5, WOOD)
     _openings(build)
     _cap(build)
 
