@@ -14,7 +14,7 @@ import pytest
 
 from tests.worlds import fresh_world
 from weather_ecs import ContextError, InvalidValueError, Weather
-from weather_ecs.components import Observer, RainArea, Wind
+from weather_ecs.components import Observer, RainArea, RippleSurface, Wind
 from weather_ecs.gpu import context as gpu_context
 from weather_ecs.gpu import renderer as gpu_renderer
 from weather_ecs.quality import LEVELS
@@ -335,6 +335,17 @@ def test_a_client_that_draws_and_a_server_have_the_same_bytes(ctx, target):
             return weather.snapshot()
 
     assert play(context=ctx) == play()
+
+
+@pytest.mark.parametrize("wrong", [5, "me", (0.0, 1.0, 2.0), RainArea((0, 0), (2, 1))])
+def test_what_is_no_observer_is_named_everywhere(wrong):
+    with Weather() as weather:
+        asked = (weather.draw, weather.air, weather.wetness, weather.cloud_shadow, weather.sky)
+        for ask in asked:
+            with pytest.raises(InvalidValueError, match="observer: got"):
+                ask(observer=wrong)
+        with pytest.raises(InvalidValueError, match="observer: got"):
+            weather.ripples(RippleSurface((0, 0, 0), (2, 2)), observer=wrong)
 
 
 @pytest.mark.parametrize("backend", ["compute", "feedback"])

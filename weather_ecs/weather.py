@@ -287,11 +287,7 @@ class Weather:
 
         Raises InvalidValueError for a matrix that is none, ContextError without OpenGL.
         """
-        self._check_open()
-        if observer is not None and not isinstance(observer, Observer):
-            raise InvalidValueError("observer", observer, "an Observer component or None")
-        if self._window is None and self._context is None:
-            raise ContextError("this weather was made with neither window nor context to draw to")
+        self._check_drawing(observer)
         if self._window is not None and not _can_be_drawn_to(self._window):
             return
         if self._window is not None:
@@ -308,6 +304,7 @@ class Weather:
         None where nothing was drawn yet, and for a surface that is not in the weather's world.
         """
         self._check_open()
+        _check_observer(observer)
         data = self._extract.ripples.find(surface)
         if self._renderer is None or data is None:
             return None
@@ -319,9 +316,7 @@ class Weather:
         The same object for good; what it binds is what the last draw left. Raises ContextError
         without OpenGL.
         """
-        self._check_open()
-        if self._window is None and self._context is None:
-            raise ContextError("this weather was made with neither window nor context")
+        self._check_drawing(observer)
         with _current(self._window):
             return self._ready_renderer().wetness(self._keys.key(observer))
 
@@ -331,9 +326,7 @@ class Weather:
         The same object for good; what it binds is what the last draw left. Raises ContextError
         without OpenGL.
         """
-        self._check_open()
-        if self._window is None and self._context is None:
-            raise ContextError("this weather was made with neither window nor context")
+        self._check_drawing(observer)
         with _current(self._window):
             return self._ready_renderer().cloud_shadow(self._keys.key(observer))
 
@@ -343,11 +336,7 @@ class Weather:
         The same object for good, whoever observes; what it binds is what the last draw left.
         Raises ContextError without OpenGL.
         """
-        self._check_open()
-        if observer is not None and not isinstance(observer, Observer):
-            raise InvalidValueError("observer", observer, "an Observer component or None")
-        if self._window is None and self._context is None:
-            raise ContextError("this weather was made with neither window nor context")
+        self._check_drawing(observer)
         with _current(self._window):
             return self._ready_renderer().sky()
 
@@ -371,9 +360,7 @@ class Weather:
         at `position`, an (x, y, z) in metres; without one, where the observer is, or where the last
         draw was. Raises ContextError without OpenGL.
         """
-        self._check_open()
-        if self._window is None and self._context is None:
-            raise ContextError("this weather was made with neither window nor context")
+        self._check_drawing(observer)
         if position is not None:
             x, y, z = _check_position("position", position)
         elif observer is not None:
@@ -464,6 +451,13 @@ class Weather:
         if self._closed:
             raise ClosedError("this weather is closed")
 
+    def _check_drawing(self, observer: Observer | None) -> None:
+        """Raises what is in the way of drawing for an observer."""
+        self._check_open()
+        _check_observer(observer)
+        if self._window is None and self._context is None:
+            raise ContextError("this weather was made with neither window nor context to draw to")
+
     # Between the systems and the above
 
     def _processed(self) -> None:
@@ -511,6 +505,11 @@ class Weather:
         with in_world(self._world):
             pairs = living(Observer)
             return pairs[0][1].position if pairs else (0.0, 0.0, 0.0)
+
+
+def _check_observer(observer: Any) -> None:
+    if observer is not None and not isinstance(observer, Observer):
+        raise InvalidValueError("observer", observer, "an Observer component or None")
 
 
 def _can_be_drawn_to(window: Any) -> bool:
