@@ -44,7 +44,8 @@ def run(quick: bool) -> Result:
             cases.append(Case(sky.name, lambda sky=sky: play(stage, sky)))  # type: ignore[misc]
             for _ in range(5 if quick else SETTLE):
                 play(stage, sky)
-        timings = measure(cases, finish=ctx.finish, rounds=2 if quick else 15, sample_seconds=0.02 if quick else 0.2)
+        rounds, sample = (2, 0.02) if quick else (15, 0.2)
+        timings = measure(cases, finish=ctx.finish, rounds=rounds, sample_seconds=sample)
         cfa = {sky.name: cfa_ms(stage, sky, 2 if quick else 40) for sky in skies}
         for sky, case in zip(skies, cases, strict=True):
             facts = {

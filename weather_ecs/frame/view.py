@@ -55,7 +55,7 @@ class VeilData:
     snow: float = 0.0  # share of the extinction that is snow's
     cloud: float = 0.0  # 0 to 1: how much of the light from above a cloud takes
     top: float = 0.0  # m below the ceiling within which it becomes full
-    # Rays of rain within it, seen from afar: strength, place, and how far they drift in 1 m of fall.
+    # Rays of rain within it, seen from afar: strength, place, and their drift a m of fall.
     ragged: float = 0.0
     phase: float = 0.0
     drift: tuple[float, float] = (0.0, 0.0)

@@ -140,7 +140,8 @@ def full_light(
     inside = np.maximum(1.0 - 0.55 * (q * q).sum(-1), 0.12)[..., None]
     flash = body.flash * inside * np.array([0.86, 0.90, 1.0])
     relief = (0.62 - 0.38 * a) * (0.45 + 0.55 * rise)
-    return Lit(lit + flash, shade + FLASH_SHADE * flash, rim, facing, relief, 0.75 * (1.0 - rise) ** 2)
+    soft = 0.75 * (1.0 - rise) ** 2
+    return Lit(lit + flash, shade + FLASH_SHADE * flash, rim, facing, relief, soft)
 
 
 def _length(x: Array) -> Array:
