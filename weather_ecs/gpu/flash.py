@@ -40,7 +40,7 @@ def flash_of(frame: FrameData, position: tuple[float, float, float]) -> Flash | 
 
 
 def cloud_lights(frame: FrameData, position: tuple[float, float, float]) -> NDArray[np.float32]:
-    """(2, m, 4): places from the camera, m, and 1 / m2 of the core; linear RGB. m <= CLOUD_LIGHTS."""
+    """(2, m, 4): places from the camera, m, and 1/m2 of the core; linear RGB. m <= CLOUD_LIGHTS."""
     rows = frame.strikes
     if len(rows) > CLOUD_LIGHTS:
         rows = rows[np.argsort(-rows["light"], kind="stable")[:CLOUD_LIGHTS]]
