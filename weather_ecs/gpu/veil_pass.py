@@ -19,6 +19,7 @@ from weather_ecs.physics.front import SETTLED
 DEPTH_UNIT, SHEET_UNIT = 0, 1
 COARSE = 4  # pixels on a side of a texel of the sheets
 LARGE = 400  # pixels, height of a picture from which on veils are drawn coarser
+WIDE = 600.0  # m, radius of areas before whose ends most of what stands in the picture stands
 BEYOND = 1.2  # of the distance of the far plane: nothing of the scene stands there
 MIX = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
 
@@ -27,7 +28,9 @@ class VeilPass:
     """Draws the veils of a view over the scene whose depth it is given.
 
     In large pictures by way of two coarse sheets: of what is before the empty sky, and of the
-    optical depth for a km before the scene, of which every pixel takes its own share.
+    optical depth for a km before the scene, of which every pixel takes its own share. Of
+    small areas, which end among the things of the scene, it would be too little: before these they
+    are drawn pixel for pixel.
     """
 
     def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader) -> None:
@@ -62,8 +65,17 @@ class VeilPass:
         far = abs(float(p[2, 3]) / past) if abs(past) > 1e-9 else 1e9
         before = [each for each in seen if each.distance < BEYOND * far]
         self._draw_sheet(view, seen, guard, None)
-        if before:
-            self._draw_sheet(view, before, guard, depth)
+        wide = [each for each in before if each.veil.shape[0] >= WIDE]
+        if wide:
+            self._draw_sheet(view, wide, guard, depth)
+        small = [each for each in before if each.veil.shape[0] < WIDE]
+        if small:
+            depth.use(DEPTH_UNIT)
+            self._ctx.enable(moderngl.DEPTH_TEST)
+            self._ctx.depth_func = ">"  # only where something has been drawn
+            self._draw(view, small)
+            self._ctx.depth_func = "<="
+            self._ctx.disable(moderngl.DEPTH_TEST)
 
     def _draw(self, view: ViewData, seen: Sequence[Seen], place: str = "") -> None:
         """Into what is bound. place: what the rays end at, if not each at the scene's own depth."""
