@@ -417,3 +417,17 @@ def test_snow_that_begins_fades_in_with_its_water() -> None:
         assert container.dry == (0.0, 0.0, 0.0, 0.0)
         loads.append(container.load)
     assert 0.0 < loads[1] < 0.9 * loads[0]
+
+
+def test_rain_is_hidden_by_its_cloud_from_above():
+    carried = replace(frame(FAR), carried=frozenset((1,)))
+    top = 400.0  # m, the ceiling of every area here
+
+    def extinction_from(height: float, seen: FrameData) -> float:
+        found = RainView().view(seen, camera((0.0, height, 0.0), NORTH, -0.5), 0, quality()).veils
+        return sum(veil.extinction for veil in found)
+
+    below, between, above = (extinction_from(top + rise, carried) for rise in (-10.0, 250.0, 600.0))
+    assert 0.0 < between < 0.7 * below
+    assert above == 0.0
+    assert extinction_from(top + 600.0, frame(FAR)) > 0.0  # there is no cloud over a game's own

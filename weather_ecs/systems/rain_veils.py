@@ -17,6 +17,7 @@ _SOFT_TOP = 0.25  # of the height of a cloud's base: in it the rain below become
 _RAGGED, _FAR = 0.8, 1500.0  # how uneven a shaft is; m from which on it is all of that
 _SHEAR = 0.4  # of the wind: a cloud goes with most of it, and so does what it drops
 _RAIN_SPEED, _SNOW_SPEED = 6.0, 1.5  # m/s, of what shows the slant of a shaft
+_OVER = 500.0  # m over a cloud's base from which nothing is seen of its rain
 _BELOW = 300.0  # m under the container and the eye to which a veil hangs
 
 
@@ -35,7 +36,8 @@ def veils(
     }
     for row in frame.areas:
         container = placed.get(int(row["key"]))
-        if container is not None and container.visible:
+        hidden = int(row["key"]) in frame.carried and eye - float(row["ceiling"]) >= _OVER
+        if container is not None and container.visible and not hidden:
             yield _veil(frame, row, container, counts, eye)
 
 
@@ -75,7 +77,11 @@ def _veil(
         shown=shown,
         snow=snow,
     )
-    return _under_cloud(veil, frame, key, container.distance) if key in frame.carried else veil
+    if key not in frame.carried:
+        return veil
+    hidden = min(max((eye - ceiling) / _OVER, 0.0), 1.0)
+    veil = replace(veil, extinction=(1.0 - hidden) * veil.extinction)
+    return _under_cloud(veil, frame, key, container.distance)
 
 
 def _under_cloud(veil: VeilData, frame: FrameData, key: int, distance: float) -> VeilData:
