@@ -330,6 +330,26 @@ def test_nothing_lands_under_a_roof_and_all_of_it_beside(
 
 
 @pytest.mark.usefixtures("target")
+def test_a_roof_in_the_wind_takes_nothing_from_a_gauge_beside_it(
+    ctx: moderngl.Context, backend: str
+) -> None:
+    # Behind it small drops are kept off further out than large ones are.
+    with Weather(context=ctx, backend=backend, quality="medium", seed=3) as weather:
+        esper.create_entity(RainArea((0, 0), (200, 200), RATE))
+        esper.create_entity(Wind((0.0, 1.0), 8.0))
+        ground = placed((0, -1, 0), (100, 1, 100))
+        esper.create_entity(Occluder(CORNERS, TRIANGLES, ground))
+        esper.create_entity(Occluder(CORNERS, TRIANGLES, placed((14, 3, -14), (5, 0.1, 5))))
+        gauges = [RainGauge((x, 0.3, 0.0)) for x in (15.0, 22.0)]
+        for gauge in gauges:
+            esper.create_entity(gauge)
+        watch(weather, 30.0)
+        got = [gauge.rate for gauge in gauges]
+        assert got == pytest.approx([RATE] * 2, rel=0.06)
+        assert got != [RATE] * 2
+
+
+@pytest.mark.usefixtures("target")
 def test_the_edge_of_an_area_and_two_areas_together(ctx: moderngl.Context, backend: str) -> None:
     with Weather(context=ctx, backend=backend, quality="medium") as weather:
         esper.create_entity(RainArea((0, 0), (30, 30), RATE, soft_edge=25.0))

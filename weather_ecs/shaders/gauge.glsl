@@ -28,6 +28,28 @@ bool gauge_open(vec3 p)
 #endif
 }
 
+// Whether drops of every size reach a place of the plane past whatever is near: in wind small ones
+// slant in more than the mean fall, and behind a roof fewer of them land than of the large ones.
+bool gauge_clear(vec3 p)
+{
+    if (!gauge_open(p)) return false;
+#ifdef SHELTER
+    const vec3 SLANTS = vec3(0.65, 1.7, 3.0);  // of the largest, the small and the smallest
+    if (dot(shelter_fall.xy, shelter_fall.xy) < 1e-4) return true;
+    for (int s = 0; s < 3; ++s) {
+        vec3 up = vec3(-shelter_fall.x, 1.0, -shelter_fall.y) * vec3(SLANTS[s], 1.0, SLANTS[s]);
+        float high = 0.6;
+        for (int k = 0; k < 14; ++k) {
+            vec3 m = shelter_place(p + up * high);
+            if (!in_shelter_map(m)) break;
+            if (below_texel(m) > 0.05) return false;
+            high *= 1.25;
+        }
+    }
+#endif
+    return true;
+}
+
 // Whether the container's drops tell of a place of the plane: not at its rim, where few of them
 // stand for many, nor so close to its border that the wind blows them in from outside.
 bool gauge_watched(vec3 p)

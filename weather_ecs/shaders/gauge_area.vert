@@ -18,7 +18,7 @@ void main()
     float radius = own ? gauge_shape[gl_InstanceID].x : gauge.w;
     float angle = gauge_turn + 2.3999632 * float(k);
     vec3 p = gauge.xyz + radius * sqrt(share) * vec3(cos(angle), 0.0, sin(angle));
-    if (!gauge_open(p) || (!own && !gauge_watched(p))) return;
+    if (own ? !gauge_open(p) : !gauge_watched(p) || !gauge_clear(p)) return;
     if (own) vs_sum.z = 1.0 / float(OWN);
     else vs_sum.y = 3.14159265 * gauge.w * gauge.w / float(CATCH);
     gl_Position = gauge_texel(gl_InstanceID);

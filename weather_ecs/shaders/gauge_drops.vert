@@ -23,7 +23,7 @@ void main()
     if (has_landed(v) || v.y > -0.01 || rise < 0.0 || rise >= GAUGE_SLAB) return;
     vec3 foot = vec3(in_position.xz - v.xz * (rise / v.y), gauge.y).xzy;
     vec2 away = foot.xz - gauge.xz;
-    if (dot(away, away) > gauge.w * gauge.w || !gauge_watched(foot) || !gauge_open(foot)) return;
+    if (dot(away, away) > gauge.w * gauge.w || !gauge_watched(foot) || !gauge_clear(foot)) return;
     float d;
     float weight = drop_load_at(in_position, in_birth.z, gl_VertexID, d);
     float diameter = drop_diameter(in_birth.w, drop_law);
