@@ -10,7 +10,7 @@ import esper
 from weather_ecs.components import Occluder
 from weather_ecs.components.collision_heightmap import ALL_LAYERS
 from weather_ecs.frame import OccluderData
-from weather_ecs.systems.queries import living
+from weather_ecs.systems.queries import leaving, living
 
 
 class OccluderList:
@@ -20,15 +20,16 @@ class OccluderList:
         self._known: WeakKeyDictionary[Occluder, OccluderData] = WeakKeyDictionary()
         self._next_key = 0
         self._list: list[Any] | None = None
-        self._revision = -1
-        self._layers = ALL_LAYERS
+        self._state = -1, ALL_LAYERS, 0  # revision, layers, pending deletions
         self._data: tuple[OccluderData, ...] = ()
 
     def collect(self, layers: int = ALL_LAYERS) -> tuple[OccluderData, ...]:
         """The living occluders on any of some layers; the same tuple where nothing has changed."""
-        pairs, revision = esper.get_component(Occluder), Occluder.revision()
-        if pairs is not self._list or revision != self._revision or layers != self._layers:
-            self._list, self._revision, self._layers = pairs, revision, layers
+        pairs = esper.get_component(Occluder)
+        # A deletion that is pending does not show in esper's list.
+        state = Occluder.revision(), layers, leaving(entity for entity, _ in pairs)
+        if pairs is not self._list or state != self._state:
+            self._list, self._state = pairs, state
             hit = [occluder for _, occluder in living(Occluder) if occluder.layers & layers]
             self._data = tuple([self._of(occluder) for occluder in hit])
         return self._data
