@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from demo_game.game import Game
+from demo_game.mood import CLIMATE
 from demo_game.pictures import save_png
 from demo_game.place import Place
 from demo_game.settings import Settings
@@ -101,7 +102,9 @@ def run_tour(options: HeadlessOptions, settings: Settings) -> str:
             times.append((clock.perf_counter() - begin) * 1000.0)
             if stats is not None:
                 stats.write(
-                    row(frame, game.time, times[-1], game.pose.eye, game.weather.stats, game.state)
+                    row(
+                        frame, game.time, times[-1], game.pose.eye, game.weather.stats, _state(game)
+                    )
                 )
             wanted = options.out is not None and frame % options.every == 0
             if wanted or film is not None:
@@ -114,6 +117,12 @@ def run_tour(options: HeadlessOptions, settings: Settings) -> str:
                 print(f"demo_game: frame {frame + 1} of {options.frames}", flush=True)
         renderer = str(context.info["GL_RENDERER"])
     return _summary(options, times, renderer)
+
+
+def _state(game: Game) -> str:
+    """Name of the preset, or how far the climate has come: 0 clear to 1 storm."""
+    name = game.state
+    return f"{name} {game.weather.stats.state:.3f}" if name == CLIMATE else name
 
 
 def _summary(options: HeadlessOptions, times: list[float], renderer: str) -> str:
