@@ -12,6 +12,7 @@ from typing import NoReturn
 from demo_game.game import START
 from demo_game.headless import HeadlessOptions, TourError, encoder_is_installed, run_tour
 from demo_game.place.place import BOUNDS
+from demo_game.reports import read_report
 from demo_game.settings import BACKENDS, QUALITIES, Settings
 from demo_game.tours import TOURS
 from weather_ecs.errors import WeatherError
@@ -148,6 +149,14 @@ def build_parser() -> argparse.ArgumentParser:
         "the rain; fog, sleet, snow: the air too",
     )
     add(
+        "--metar",
+        metavar="REPORT",
+        default=None,
+        help="a METAR report in quotes, whose weather takes the place of the preset; what was "
+        "understood of it is printed off screen, and shown on F3 in the window (needs the extra "
+        "metar)",
+    )
+    add(
         "--walk-speed",
         type=_number(float, 0.1, 20.0, "0.1 to 20 m/s"),
         default=1.4,
@@ -197,12 +206,25 @@ def _run(options: argparse.Namespace) -> int:
         backend=options.backend,
         fullscreen=options.fullscreen,
     )
+    if options.metar is not None:
+        try:
+            report = read_report(options.metar)
+        except WeatherError as error:
+            return _refuse(f"argument --metar: {error}")
+        if options.headless:
+            print(report)
     if options.headless:
         return _tour(options, settings)
     from demo_game.display import NoDisplay, open_window
 
     try:
-        return open_window(settings, seed=options.seed, preset=options.preset, start=options.start)
+        return open_window(
+            settings,
+            seed=options.seed,
+            preset=options.preset,
+            start=options.start,
+            metar=options.metar,
+        )
     except NoDisplay as reason:
         print(f"demo_game: no window ({reason}); rendering the tour off screen instead")
     except WeatherError as error:
@@ -227,6 +249,7 @@ def _tour(options: argparse.Namespace, settings: Settings, *, progress: bool = F
         dt=options.dt,
         seed=options.seed,
         preset=options.preset,
+        metar=options.metar,
         walk_speed=options.walk_speed,
         out=out,
         every=every or 60,

@@ -9,7 +9,7 @@ import esper
 
 from demo_game.rain_cloud import place_over, rain_cloud_model
 from weather_ecs import presets
-from weather_ecs.components import Climate, Cloud, RainArea, SkyLayer
+from weather_ecs.components import Climate, Cloud, RainArea, Sky, SkyLayer
 
 DURATION = 150.0  # s from clear to storm and back again
 SETTLING = 14.0  # s in which the clouds come to be those of another state
@@ -51,6 +51,8 @@ class Cloudscape:
             self.clouds.append((cloud, area))
         self._last = state
         self._rains = False
+        self._skies = [layer.skies for layer in self.layers]
+        self._is_shown = True
         self._left = 0.0  # s for which the clouds go on changing where they stand
 
     @property
@@ -108,6 +110,14 @@ class Cloudscape:
         if (climate.initial, climate.final) != (0.0, 1.0):
             climate.initial, climate.final = 0.0, 1.0
         climate.elapsed = state * climate.duration
+
+    def show(self, shown: bool) -> None:
+        """Fill the layers as they were, or empty them: a whole weather has clouds of its own."""
+        if shown is self._is_shown:
+            return
+        self._is_shown, self._left = shown, SETTLED
+        for layer, skies in zip(self.layers, self._skies, strict=True):
+            layer.skies = skies if shown else (Sky(0.0),)
 
     def let_rain(self, rains: bool) -> None:
         """Whether the clouds of the sky bring their own rain."""

@@ -28,6 +28,7 @@ def make_window(
     seed: int = 0,
     preset: str = "heavy",
     start: tuple[float, float] = START,
+    metar: str | None = None,
     size: tuple[int, int] = (1280, 720),
 ) -> GameWindow:
     """The game's window with the newest OpenGL there is.
@@ -53,7 +54,9 @@ def make_window(
             logging.getLogger("demo_game").debug("no OpenGL %d.%d: %s", major, minor, error)
             continue
         surface.close()
-        return GameWindow(settings, config, size=size, seed=seed, preset=preset, start=start)
+        return GameWindow(
+            settings, config, size=size, seed=seed, preset=preset, start=start, metar=metar
+        )
     raise NoDisplay(_reason(reason))
 
 
@@ -63,10 +66,11 @@ def open_window(
     seed: int = 0,
     preset: str = "heavy",
     start: tuple[float, float] = START,
+    metar: str | None = None,
 ) -> int:
     """Play until the window is closed; returns the exit code."""
     try:
-        window = make_window(settings, seed=seed, preset=preset, start=start)
+        window = make_window(settings, seed=seed, preset=preset, start=start, metar=metar)
     except Abandoned:
         return 0
     try:

@@ -109,7 +109,7 @@ class Entities:
         self._share = share
         for area, rate in self.rates(mood):
             _assign(area, rain_rate=rate)
-        _assign(self._wind, speed=mood.wind_speed)
+        _assign(self._wind, speed=(1.0 - mood.lent) * mood.wind_speed)
         x, z = direction(mood.wind_heading)
         if x * self._wind.direction[0] + z * self._wind.direction[1] < 1.0 - 1e-9:
             self._wind.direction = (x, z)

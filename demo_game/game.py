@@ -29,17 +29,19 @@ from demo_game.mood import (
 from demo_game.place import Place
 from demo_game.player import Intent, Player
 from demo_game.plays import Play
-from demo_game.render import Environment, SceneRenderer
+from demo_game.render import Environment, RainPatch, SceneRenderer
 from demo_game.settings import Settings
 from demo_game.showers import Showers
 from demo_game.skies import SkyChanger, hide
 from demo_game.tours import Tour
+from demo_game.wholes import CENTER, KEY_TIME, Wholes, next_whole
 from weather_ecs import Weather
 from weather_ecs.components import Climate, RainArea, SkyLayer
 from weather_ecs.errors import WeatherError
 from weather_ecs.presets import PRESETS, SKIES
 
 WIND_HEADING = math.radians(-22.5)  # to the east, a little south
+METAR = "metar"  # in place of a preset's name until the report is read
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings its own clouds
 CLOUDS_FROM_TO = 700.0, 2900.0  # m, in which one comes out of them
@@ -72,11 +74,16 @@ class Game:
         preset: str = "heavy",
         tour: Tour | None = None,
         start: tuple[float, float] = START,
+        metar: str | None = None,
     ) -> None:
         self.settings = settings
         self.time = 0.0  # s of play
         self.tour = tour
         self.mood = MoodChanger(preset, WIND_HEADING)
+        self.wholes = Wholes()
+        self.report: Any = None  # of METAR, if there is one
+        if metar is not None:  # the report's weather is to count from the first frame on
+            self.mood.put(self.mood.current, METAR)
         self.sky = SkyChanger()
         self._context, self._seed = context, seed
         self._before = esper.current_world
@@ -95,7 +102,9 @@ class Game:
         self.scene = SceneRenderer(context, self.place, settings.quality)
         try:
             self.weather = self._make_weather()
-            if preset not in PRESETS and preset not in SKIES:
+            if metar is not None:
+                self._report(metar)
+            elif preset not in PRESETS and preset not in SKIES:
                 self._load(preset)
         except WeatherError:
             self.scene.release()
@@ -127,10 +136,13 @@ class Game:
             self._follow_play(self._play)
         elif self._scape.is_running:
             self.mood.follow_climate(self._scape.state)
+        whole = self.wholes.mood(self.weather)
+        if whole is not None:
+            self.mood.follow(*whole)
         self.sky.update(dt)
         share = self._showers.share(self.time) if self.tour is None else 1.0
         scenery = self._scenery()
-        light, dark_for = self._light(), scenery.rain_rate
+        light, dark_for = self._light(), scenery.rain_rate + scenery.carried
         self._entities.update(self._mood(), light, self._scene_time, share, dark_for)
         rates = [rate for _, rate in self._entities.rates(scenery)]
         self._scape.update(dt * self.weather.speed, scenery.state, rates)
@@ -173,10 +185,23 @@ class Game:
         """Change the weather; returns what to tell the player."""
         self._scape.stop()
         self.mood.choose(name)
+        self._leave_whole()
         return PRESETS[name].description
+
+    def choose_whole(self, name: str, seconds: float = KEY_TIME) -> str:
+        """Change to a whole weather; returns what to tell the player."""
+        self._scape.stop()
+        self._scape.show(False)
+        self.wholes.go(self.weather, name, seconds, self.mood.current)
+        return f"{name.replace('_', ' ').capitalize()} within {seconds:.0f} s"
+
+    def next_whole(self, step: int = 1) -> str:
+        """Go on to the next whole weather, or back; returns what to tell the player."""
+        return self.choose_whole(next_whole(self.mood.preset, step))
 
     def run_climate(self) -> str:
         """Let the climate run, or run back; returns what to tell the player."""
+        self._leave_whole()
         onwards = self._scape.run()
         return "The weather turns to storm" if onwards else "The weather clears up"
 
@@ -219,6 +244,24 @@ class Game:
             if climate is not None:
                 self._scape.follow(climate)
         self.mood.put(climate_mood(self._scape.state, WIND_HEADING), Path(path).stem)
+
+    def _report(self, text: str) -> None:
+        """The weather of a METAR report, from the start."""
+        try:
+            self.report = self.weather.apply_metar(text, 0.0, center=CENTER)
+        except WeatherError:
+            self.weather.close()
+            raise
+        self._scape.show(False)
+        self.wholes.is_on = True
+        whole = self.wholes.mood(self.weather)
+        if whole is not None:
+            self.mood.put(*whole)
+        self._entities.update(self._mood(), self._light(), SCENE_START)
+
+    def _leave_whole(self) -> None:
+        self.wholes.leave(self.weather, self.mood.target)
+        self._scape.show(True)
 
     def _follow_play(self, play: Play) -> None:
         turn = play.at(self.time, self.mood.target.wind_heading)
@@ -275,7 +318,7 @@ class Game:
         """The sky: on the tours that are compared it drifts the same whatever the wind, and costs
         little if that is asked for.
         """
-        if self.mood.preset not in PRESETS and self.mood.preset not in SKIES:
+        if self.mood.preset not in (*PRESETS, *SKIES, METAR):
             return []  # a file has its own
         if not self._is_compared:
             return all_layers()
@@ -346,10 +389,7 @@ class Game:
             fog_density=self.weather.air(position=self.pose.eye).extinction,
             fog_color=light.horizon_color,
             fog_overhead=fog_overhead(mood.visibility),
-            rain_areas=[
-                (area.center, area.radii, area.heading, rate, area.ceiling)
-                for area, rate in self._entities.rates(mood)
-            ],
+            rain_areas=self._patches(mood),
             wind=self._wind(mood),
             ripples=self.weather.ripples(self._entities.pond),
             water=self.weather.wetness() if self._is_wetted else None,
@@ -358,6 +398,14 @@ class Game:
             actor_snow=self._entities.snow_on_actors(self.weather),
             lamps=light.lamps,
         )
+
+    def _patches(self, mood: Mood) -> list[RainPatch]:
+        """Where it rains, as the renderer has it."""
+        areas = self._entities.rates(mood)
+        whole = self.wholes.area(self.weather)
+        if whole is not None:
+            areas.append((whole, whole.rain_rate))
+        return [(area.center, area.radii, area.heading, rate, area.ceiling) for area, rate in areas]
 
     @property
     def _is_wetted(self) -> bool:

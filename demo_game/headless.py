@@ -39,6 +39,7 @@ class HeadlessOptions:
     dt: float = 1.0 / 60.0  # s
     seed: int = 0
     preset: str = "heavy"
+    metar: str | None = None  # a report in place of the preset
     walk_speed: float = 1.4  # m/s, of the tour crossing
     out: Path | None = None  # no pictures where None
     every: int = 60  # frames between two pictures
@@ -91,7 +92,13 @@ def run_tour(options: HeadlessOptions, settings: Settings) -> str:
         place = Place(options.seed)
         tour = make_tour(options.tour, place, (options.frames - 1) * options.dt, options.walk_speed)
         game = Game(
-            context, settings, place=place, seed=options.seed, preset=options.preset, tour=tour
+            context,
+            settings,
+            place=place,
+            seed=options.seed,
+            preset=options.preset,
+            tour=tour,
+            metar=options.metar,
         )
         stack.callback(game.close)
         for frame in range(options.frames):

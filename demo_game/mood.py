@@ -36,6 +36,8 @@ class Mood:
     visibility: float = 50_000.0  # m, of the air without what falls
     closed: float = 0.0  # 0..1: how far the cloud is one sheet, and not only over the rain
     state: float = 0.0  # of the skies, 0 clear to 1 storm
+    lent: float = 0.0  # 0..1: share of the wind that is not the game's own
+    carried: float = 0.0  # mm/h that a whole weather brings
 
 
 def preset_mood(name: str, wind_heading: float) -> Mood:
@@ -73,6 +75,8 @@ def blend(before: Mood, after: Mood, share: float) -> Mood:
         _blend_visibility(before.visibility, after.visibility, share),
         before.closed + share * (after.closed - before.closed),
         before.state + share * (after.state - before.state),
+        before.lent + share * (after.lent - before.lent),
+        _blend_rate(before.carried, after.carried, share),
     )
 
 
@@ -105,6 +109,7 @@ class MoodChanger:
         self.current = mood_of(preset, wind_heading)
         self._from = self._to = self.current
         self._time, self._length = 1.0, 1.0
+        self._follows = False  # a mood that changes by itself
 
     @property
     def target(self) -> Mood:
@@ -119,15 +124,19 @@ class MoodChanger:
     def choose(self, preset: str) -> None:
         """Change to a preset; the wind keeps its heading."""
         target = preset_mood(preset, self._to.wind_heading)
-        self.preset = preset
+        self.preset, self._follows = preset, False
         self._go(target, CHANGE_TIME)
 
     def follow_climate(self, state: float) -> None:
         """Go by the state of the skies, gliding there if it was a preset so far."""
-        target = climate_mood(state, self._to.wind_heading)
-        if self.preset != CLIMATE:
-            self.preset = CLIMATE
-            self._go(target, CHANGE_TIME)
+        self.follow(climate_mood(state, self._to.wind_heading), CLIMATE)
+
+    def follow(self, target: Mood, name: str) -> None:
+        """Go by a mood that changes by itself, gliding there from where one was."""
+        if self.preset != name:
+            if not self._follows:
+                self._go(target, CHANGE_TIME)
+            self.preset, self._follows = name, True
         self._to = target
         if not self.changing:
             self.current = target

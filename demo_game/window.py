@@ -43,6 +43,7 @@ class GameWindow(pyglet.window.Window):
         seed: int = 0,
         preset: str = "heavy",
         start: tuple[float, float] = START,
+        metar: str | None = None,
     ) -> None:
         self.screen_shown = Screen.START
         self.ready = False
@@ -52,13 +53,18 @@ class GameWindow(pyglet.window.Window):
             *size, caption=TITLE, resizable=True, vsync=True, config=config, visible=False
         )
         try:
-            self._begin(settings, seed, preset, start)
+            self._begin(settings, seed, preset, start, metar)
         except BaseException:
             super().close()
             raise
 
     def _begin(
-        self, settings: Settings, seed: int, preset: str, start: tuple[float, float]
+        self,
+        settings: Settings,
+        seed: int,
+        preset: str,
+        start: tuple[float, float],
+        metar: str | None,
     ) -> None:
         self.set_minimum_size(*SMALLEST)
         self.settings = settings
@@ -70,7 +76,15 @@ class GameWindow(pyglet.window.Window):
         self._gl = moderngl.get_context()
         place = prepare_place(seed, self._draw_preparing)
         self.switch_to()
-        self.game = Game(self._gl, settings, place=place, seed=seed, preset=preset, start=start)
+        self.game = Game(
+            self._gl,
+            settings,
+            place=place,
+            seed=seed,
+            preset=preset,
+            start=start,
+            metar=metar,
+        )
         self.sound = WalkSound(self.game, settings, seed)
         self.menu = pause_menu(
             settings,

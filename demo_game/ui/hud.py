@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from demo_game.compass import compass
@@ -23,8 +23,12 @@ ROWS = (
     "quality",
     "engine",
     "position",
+    "weather",
+    "report",
+    "report 2",
+    "report 3",
 )
-WIDTH = 340.0  # units
+WIDTH = 390.0  # units
 ROW = 22.0
 NAME_WIDTH = 128.0
 SIZE = 14.0
@@ -48,7 +52,8 @@ class Readout:
         for index, name in enumerate(ROWS):
             y = self.panel.top - px(PADDING + ROW * (index + 0.5))
             x = self.panel.x + px(PADDING)
-            layer.text(name, x, y, SIZE, color=TEXT_DIM)
+            if not name[-1].isdigit():
+                layer.text(name, x, y, SIZE, color=TEXT_DIM)
             self._values[name] = layer.text("", x + px(NAME_WIDTH), y, SIZE)
 
     def show(self, values: Mapping[str, str]) -> None:
@@ -113,6 +118,8 @@ def readout_values(
     quality: str,
     backend: str,
     position: tuple[float, float, float],
+    weather: str = "",
+    report: Sequence[str] = (),
 ) -> dict[str, str]:
     """The texts of the readout; wind is its speed in m/s and heading in rad."""
 
@@ -134,6 +141,8 @@ def readout_values(
         "quality": used if quality in (used, "") else f"{quality}: {used}",
         "engine": backend,
         "position": "  ".join(f"{value:.1f}" for value in position) + " m",
+        "weather": weather,
+        **dict(zip(("report", "report 2", "report 3"), report, strict=False)),
     }
 
 

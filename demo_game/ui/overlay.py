@@ -6,6 +6,7 @@ from enum import Enum
 from typing import Any
 
 from demo_game.game import Game
+from demo_game.reports import summary
 from demo_game.ui.end import EndView
 from demo_game.ui.help import HelpView
 from demo_game.ui.hud import INTERVAL, Message, Readout, readout_values
@@ -138,6 +139,8 @@ class Overlay:
                     quality=game.settings.quality,
                     backend=game.weather.backend,
                     position=game.pose.eye,
+                    weather=game.wholes.status(game.weather),
+                    report=() if game.report is None else summary(game.report),
                 )
             )
         view.draw()
