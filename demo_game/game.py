@@ -29,19 +29,23 @@ from demo_game.mood import (
 from demo_game.place import Place
 from demo_game.player import Intent, Player
 from demo_game.plays import Play
-from demo_game.render import Environment, RainPatch, SceneRenderer
+from demo_game.render import Air, Environment, RainPatch, SceneRenderer
 from demo_game.settings import Settings
 from demo_game.showers import Showers
-from demo_game.skies import SkyChanger, hide
+from demo_game.skies import SkyChanger, dim, hide, under_cloud
 from demo_game.tours import Tour
 from demo_game.wholes import CENTER, KEY_TIME, Wholes, next_whole
 from weather_ecs import Weather
-from weather_ecs.components import Climate, RainArea, SkyLayer
+from weather_ecs.components import Climate, Observer, RainArea, SkyLayer
 from weather_ecs.errors import WeatherError
 from weather_ecs.presets import PRESETS, SKIES
 
 WIND_HEADING = math.radians(-22.5)  # to the east, a little south
 METAR = "metar"  # in place of a preset's name until the report is read
+GLOOM = 1.2  # times what a rain cloud takes, under a whole sky of it
+FLASH_TIME = 2.5  # s of weather after a strike in which its flash may go on
+STRIKE_AHEAD, SPREAD = 900.0, 0.3  # m and rad, of a strike that the player calls
+HEARD_FROM = 1.0  # m that the player's ears move before the weather is told
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings its own clouds
 CLOUDS_FROM_TO = 700.0, 2900.0  # m, in which one comes out of them
@@ -97,6 +101,11 @@ class Game:
         self._showers, self._lull, self._news = Showers(seed), False, [FETCH]
         self._entities = Entities(self.place, self._mood(), self._light(), SCENE_START)
         self._scape = Cloudscape(self._scenery().state, self._entities.areas(), self._layers())
+        self._struck, self._strikes = -math.inf, 0
+        esper.set_handler("strike", self._on_strike)
+        self._observer = Observer(self.pose.eye)
+        if not self._is_compared:
+            esper.create_entity(self._observer)
         self._play = getattr(tour, "play", None)
         self._scape.let_rain(preset not in PRESETS)
         self.scene = SceneRenderer(context, self.place, settings.quality)
@@ -149,6 +158,8 @@ class Game:
         if self.tour is None:
             self.player.update(dt, intent)
         self.pose = self._pose()
+        if math.dist(self._observer.position, self.pose.eye) > HEARD_FROM:
+            self._observer.position = self.pose.eye
         esper.process(dt)
         if self.tour is None:
             self._carry_letter(dt)
@@ -365,7 +376,9 @@ class Game:
 
     def _light(self) -> Any:
         light = self.sky.light(self._overcast())
-        return hide(light, fog_left(self._scenery().visibility))
+        mood = self._scenery()
+        light = dim(light, 1.0 - GLOOM * mood.closed * (1.0 - under_cloud(mood.carried)))
+        return hide(light, fog_left(mood.visibility))
 
     def _wind(self, mood: Mood) -> tuple[float, float, float]:
         """What the scenery sways in, m/s at 10 m; on a tour the same whatever the weather."""
@@ -394,10 +407,29 @@ class Game:
             ripples=self.weather.ripples(self._entities.pond),
             water=self.weather.wetness() if self._is_wetted else None,
             cloud_shadow=self.weather.cloud_shadow() if self._has_shadows else None,
+            air=self._flash_air(),
             snow=self._snows,
             actor_snow=self._entities.snow_on_actors(self.weather),
             lamps=light.lamps,
         )
+
+    def _flash_air(self) -> Air | None:
+        """The weather's air while lightning may be bright, so that nobody pays for it else."""
+        passed = self.weather.stats.time - self._struck
+        lit = 0.0 <= passed < FLASH_TIME
+        return self.weather.air(position=self.pose.eye) if lit else None
+
+    def _on_strike(self, strike: Any, heard: Any = ()) -> None:
+        self._struck = strike.time
+
+    def strike(self) -> str:
+        """Lightning ahead of the player; returns what to tell the player."""
+        x, _, z = self.pose.eye
+        self._strikes += 1
+        turn = self.pose.yaw + SPREAD * math.sin(2.4 * self._strikes)
+        target = x - STRIKE_AHEAD * math.sin(turn), 0.0, z - STRIKE_AHEAD * math.cos(turn)
+        self.weather.strike(target)
+        return ""
 
     def _patches(self, mood: Mood) -> list[RainPatch]:
         """Where it rains, as the renderer has it."""

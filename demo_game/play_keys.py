@@ -23,6 +23,12 @@ def play_key(name: str, game: Game, shown: Shown) -> str | None:
         return game.blow(1 if name == "BRACKETRIGHT" else -1)
     if name in ("COMMA", "PERIOD"):
         return game.turn_wind(1 if name == "COMMA" else -1)
+    if name == "L":
+        return game.strike()
+    if name == "V":
+        return game.next_whole()
+    if name == "B":
+        return game.next_whole(-1)
     if name == "C":
         return game.run_climate()
     if name == "T":

@@ -114,6 +114,20 @@ def hide(light: Light, left: float) -> Light:
     )
 
 
+def dim(light: Light, left: float) -> Light:
+    """The same light with so much of it left, 0 to 1, as under the depth of a storm's cloud."""
+    if left >= 1.0:
+        return light
+    return Light(
+        light.sun_direction,
+        _dimmed(light.sun_color, left),
+        _dimmed(light.zenith_color, left),
+        _dimmed(light.horizon_color, left),
+        _dimmed(light.ground_color, left),
+        light.lamps + (1.0 - left) * (1.0 - light.lamps),
+    )
+
+
 def under_cloud(rain_rate: float) -> float:
     """Share of the daylight that is left to what falls under the cloud that rains so many mm/h."""
     return 1.0 - 0.45 * (1.0 - math.exp(-rain_rate / 4.0))

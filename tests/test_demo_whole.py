@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import esper
+import numpy as np
 import pytest
 
 from demo_game import cli, headless
@@ -125,3 +126,40 @@ def test_names_of_whole_weathers() -> None:
     assert next_whole("clear") == names[0]  # the preset of that name
     assert next_whole("whole clear") == names[1]
     assert next_whole(names[-1]) == names[0]
+
+
+def test_a_called_strike_lights_the_scene_and_is_heard(context: object, place: Place) -> None:
+    game = Game(context, Settings(quality="low"), place=place, preset="clear")
+    color = context.texture((96, 54), 4)
+    target = context.framebuffer([color], context.depth_texture((96, 54)))
+    heard = []
+
+    def on_thunder(observer: int, strike: object, distance: float) -> None:
+        heard.append(distance)
+
+    try:
+        esper.set_handler("thunder", on_thunder)
+        game.player.look(0.0, -0.6)  # at the ground
+        for _ in range(3):
+            game.update(0.02)
+        game.draw(target)
+        dark = np.frombuffer(target.read(components=3), "u1").astype("f4").mean()
+        assert game._environment().air is None
+        game.strike()
+        bright = 0.0
+        for _ in range(8):
+            game.update(0.02)
+            game.draw(target)
+            now = np.frombuffer(target.read(components=3), "u1").astype("f4").mean()
+            bright = max(bright, now)
+        assert game._environment().air is not None
+        assert bright > dark * 1.1
+        for _ in range(40):
+            game.update(0.1)
+        game.draw(target)
+        assert game._environment().air is None
+        assert len(heard) == 1
+        assert 600.0 < heard[0] < 1500.0
+        assert context.error == "GL_NO_ERROR"
+    finally:
+        game.close()

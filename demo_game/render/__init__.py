@@ -1,6 +1,6 @@
 """The game's own renderer; it knows nothing of rain but what `Environment` says."""
 
-from .environment import Environment, RainPatch
+from .environment import Air, Environment, RainPatch
 from .scene import SceneRenderer
 
-__all__ = ["Environment", "RainPatch", "SceneRenderer"]
+__all__ = ["Air", "Environment", "RainPatch", "SceneRenderer"]

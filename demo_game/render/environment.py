@@ -25,6 +25,13 @@ class Water(Protocol):
         """Bind it."""
 
 
+class Air(Protocol):
+    """The weather's air, for a program that includes weather.glsl."""
+
+    def use(self, program: Any) -> None:
+        """Bind it."""
+
+
 @dataclass
 class Environment:
     """What the game tells the renderer each frame; the defaults are a late afternoon."""
@@ -45,6 +52,7 @@ class Environment:
     ripples: Ripples | None = None  # on the pond
     water: Water | None = None  # on the ground; without it rain areas and wetness wet it
     cloud_shadow: Water | None = None  # of clouds on the ground; for cloud_shadow.glsl
+    air: Air | None = None  # of the weather while there is lightning, for its light
     snow: bool = False  # whether any may lie, as `water` knows
     actor_snow: tuple[float, float] = (0.0, 0.0)  # m, on the figure and on the sails
     lamps: float | None = None  # 0..1, how bright lamps burn; None: as the daylight asks

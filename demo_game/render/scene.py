@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from demo_game.place import Place, paint
 
 from . import geometry
-from .environment import Environment, Ripples
+from .environment import Air, Environment, Ripples
 from .flag import Flag
 from .frame_block import FrameBlock, as_matrix, unit
 from .ground import Ground
@@ -66,6 +66,8 @@ class SceneRenderer:
             set_uniforms(program, weather_shadow_map=DETAIL_UNIT)
             self._block.attach(program, name="WeatherWetness")
             self._block.attach(program, name="WeatherCloudShadow")
+            self._block.attach(program, name="WeatherAir")
+        self._flashes = False
         self._make_sized()
         self._released = False
 
@@ -119,6 +121,7 @@ class SceneRenderer:
         if environment.cloud_shadow is not None:
             for program in self._wet:
                 environment.cloud_shadow.use(program, CLOUD_UNIT)
+        self._light_up(environment.air)
         self._sky.paint(camera, environment)
         target.use()
         target.viewport = viewport
@@ -128,6 +131,15 @@ class SceneRenderer:
         self._draw_solid(planes, camera, environment)
         self._sky.draw(v, p)
         self._draw_blended(target, v, planes, camera, environment.ripples)
+
+    def _light_up(self, air: Air | None) -> None:
+        """Let lightning light everything; when it is over, nothing reads the weather's block."""
+        for program in (*self._wet, self._sky.program) if air is not None or self._flashes else ():
+            if air is not None:
+                air.use(program)
+            else:
+                self._block.attach(program, name="WeatherAir")
+        self._flashes = air is not None
 
     def show(self, name: str, shown: bool) -> None:
         """Show one of the place's still meshes or leave it out."""

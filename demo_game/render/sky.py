@@ -28,7 +28,8 @@ class Sky:
         self._targets = [ctx.framebuffer([texture]) for texture in self.maps]
         self._bake = compile_program(ctx, "sky_bake.vert", "sky_bake.frag")
         self._show = compile_program(ctx, "sky.vert", "sky.frag")
-        block.attach(self._bake)
+        block.attach(self._bake, self._show)
+        block.attach(self._show, name="WeatherAir")
         self._quad = ctx.buffer(np.array([-1, -1, 3, -1, -1, 3], "f4"))
         self._grid = ctx.buffer(_grid())
         shape = [(self._quad, "2f4", "in_position")]
@@ -37,6 +38,11 @@ class Sky:
         self._row = 0
         self._painted: NDArray | None = None  # state of the map now shown
         self._state: NDArray = np.zeros(0)
+
+    @property
+    def program(self) -> moderngl.Program:
+        """What shows the map."""
+        return self._show
 
     @property
     def map(self) -> moderngl.Texture:

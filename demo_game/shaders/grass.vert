@@ -29,7 +29,8 @@ void main() {
     vec2 cover = rain_cover(root.xz);
     vec3 albedo = in_color.rgb * in_color.rgb * (1.0 - 0.28 * cover.y);
     albedo = mix(albedo, SNOW, snowy * (0.55 + 0.40 * in_color.w));
-    vec3 ambient = sky_light(vec3(0.0, 1.0, 0.0), cover.x) * (0.62 + 0.38 * in_color.w);
+    vec3 up = vec3(0.0, 1.0, 0.0);
+    vec3 ambient = (sky_light(up, cover.x) + flash_light(root, up)) * (0.62 + 0.38 * in_color.w);
     ambient += LAMP_COLOR * (LAMP_STRENGTH * in_root.w * 4.0 * sun_direction.w);
     vec4 air = haze(p);
     vec3 shadow = (shadow_matrix * vec4(root + vec3(0.0, 0.25, 0.0), 1.0)).xyz;

@@ -15,6 +15,7 @@ uniform sampler2D detail_map;
 #ifdef WET
 uniform sampler2D sky_map;
 #include "wetness.glsl"
+#include "flash.glsl"
 #endif
 
 in vec4 v_light;
@@ -84,6 +85,7 @@ void main() {
     float away2 = away * away;
     float fresnel = 0.02 + 0.98 * away2 * away2 * away;
     vec3 sky = texture(sky_map, sky_uv_unit(vec3(tilt - view.xz, view.y).xzy)).rgb;
+    sky = flash_on_sky(sky);
     color = tone(color * air.a + air.rgb);
     // Blended as display values, which the sky's map holds; the root makes up for it.
     float share = mix(fresnel * wet * (0.20 + 0.25 * bare), sqrt(fresnel) * 0.92, puddle);

@@ -27,7 +27,8 @@ void main() {
 #else
     v_snow = drift.z < 1.5 ? 0.0 : 10.0 * weather_open_snow(in_position) * smoothstep(0.5, 0.8, n.y);
 #endif
-    v_light = vec4(sky_light(n, cover.x), sun_share(max(dot(n, sun_direction.xyz), 0.0), cover.x));
+    vec3 around = sky_light(n, cover.x) + flash_light(in_position, n);
+    v_light = vec4(around, sun_share(max(dot(n, sun_direction.xyz), 0.0), cover.x));
 #ifdef NEAR
     v_haze = haze(in_position);
 #else

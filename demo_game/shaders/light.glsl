@@ -4,6 +4,7 @@ const float LAMP_STRENGTH = 1.5;
 #include "wetness.glsl"
 #include "cloud_shadow.glsl"
 #include "fog_light.glsl"
+#include "flash.glsl"
 
 const float CLOUD_SHADOW = 0.85;  // of the daylight's share that rain clouds take
 

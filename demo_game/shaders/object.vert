@@ -85,7 +85,7 @@ void main() {
 #endif
     albedo = mix(albedo, SNOW, snowy);
     wet *= 1.0 - snowy;
-    vec3 ambient = sky_light(n, cover.x) * sky;
+    vec3 ambient = (sky_light(n, cover.x) + flash_light(p, n)) * sky;
     // Where no sky is seen lamps burn by day as well.
     float burn = mix(0.9, sun_direction.w, min(sky * 1.6, 1.0));
     ambient += LAMP_COLOR * (LAMP_STRENGTH * lamp * burn);

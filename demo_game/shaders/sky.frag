@@ -1,4 +1,6 @@
 // The last two maps blended, so that the sky never jumps; they are dithered already.
+#include "frame.glsl"
+#include "flash.glsl"
 uniform sampler2D sky_before;
 uniform sampler2D sky_after;
 uniform float share;
@@ -7,5 +9,6 @@ in vec2 v_uv;
 out vec4 out_color;
 
 void main() {
-    out_color = mix(texture(sky_before, v_uv), texture(sky_after, v_uv), share);
+    vec4 shown = mix(texture(sky_before, v_uv), texture(sky_after, v_uv), share);
+    out_color = vec4(flash_on_sky(shown.rgb), shown.a);
 }

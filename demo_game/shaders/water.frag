@@ -3,6 +3,7 @@
 #include "tone.glsl"
 #include "sky_map.glsl"
 #include "ripple_sample.glsl"
+#include "flash.glsl"
 
 uniform sampler2D detail_map;
 uniform sampler2D sky_map;
@@ -24,6 +25,7 @@ void main() {
     float facing = max(view.y - dot(slope, view.xz), 0.0);
     vec3 mirrored = vec3(wave * 0.05 - view.xz - slope * (2.0 * facing), 2.0 * facing - view.y).xzy;
     vec3 sky = texture(sky_map, sky_uv_unit(vec3(mirrored.x, abs(mirrored.y), mirrored.z))).rgb;
+    sky = flash_on_sky(sky);
     float away = 1.0 - facing;
     float away2 = away * away;
     float fresnel = 0.02 + 0.98 * away2 * away2 * away;

@@ -31,6 +31,8 @@ RIGHT = (
     ("8  9", "light snow, heavy snow"),
     ("0  -", "blizzard, fog"),
     ("", ""),
+    ("V  B", "whole weathers, on and back"),
+    ("L", "lightning ahead"),
     ("C", "to storm, and back to clear"),
     ("[  ]", "less wind, more wind"),
     (",  .", "turn the wind"),
