@@ -111,8 +111,10 @@ def build_parser() -> argparse.ArgumentParser:
         "side, all of it in the frames given; run: in through the edge at 6 m/s; crossing: "
         "straight through the edge at --walk-speed; still: in the rain, not moving; clouds: under "
         "a sky that fills from clear to storm, with shafts of rain, then up through a cloud and "
-        "over the tops; snow: before, while and after it snows. The last two bring their own "
-        "weather and are a time-lapse in parts, however many frames they have",
+        "over the tops; snow: before, while and after it snows; storm: towards a "
+        "thunderstorm that comes up, with lightning; night: along the lamps in a shower under a "
+        "full moon. The last four bring their own weather; clouds, snow and storm are a "
+        "time-lapse in parts, however many frames they have",
     )
     add("--frames", type=_number(int, 1, MOST_FRAMES, f"1 to {MOST_FRAMES}"), default=600)
     add("--size", type=_size, metavar="WxH", default=(1280, 720), help="default 1280x720")

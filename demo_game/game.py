@@ -28,7 +28,7 @@ from demo_game.mood import (
 )
 from demo_game.place import Place
 from demo_game.player import Intent, Player
-from demo_game.plays import Play
+from demo_game.plays import Play, Turn
 from demo_game.render import Air, Environment, RainPatch, SceneRenderer
 from demo_game.settings import Settings
 from demo_game.showers import Showers
@@ -36,7 +36,7 @@ from demo_game.skies import SkyChanger, dim, hide, under_cloud
 from demo_game.tours import Tour
 from demo_game.wholes import CENTER, KEY_TIME, Wholes, next_whole
 from weather_ecs import Weather
-from weather_ecs.components import Climate, Observer, RainArea, SkyLayer
+from weather_ecs.components import Atmosphere, Climate, Observer, RainArea, SkyLayer
 from weather_ecs.errors import WeatherError
 from weather_ecs.presets import PRESETS, SKIES
 
@@ -85,9 +85,12 @@ class Game:
         self.tour = tour
         self.mood = MoodChanger(preset, WIND_HEADING)
         self.wholes = Wholes()
+        self._play = getattr(tour, "play", None)
+        self._asked, self._called = "", 0
         self.report: Any = None  # of METAR, if there is one
-        if metar is not None:  # the report's weather is to count from the first frame on
-            self.mood.put(self.mood.current, METAR)
+        if metar is not None or self._has_whole_play:
+            # Theirs is to count from the first frame on.
+            self.mood.put(replace(self.mood.current, rain_rate=0.0), METAR)
         self.sky = SkyChanger()
         self._context, self._seed = context, seed
         self._before = esper.current_world
@@ -106,14 +109,17 @@ class Game:
         self._observer = Observer(self.pose.eye)
         if not self._is_compared:
             esper.create_entity(self._observer)
-        self._play = getattr(tour, "play", None)
         self._scape.let_rain(preset not in PRESETS)
         self.scene = SceneRenderer(context, self.place, settings.quality)
         try:
             self.weather = self._make_weather()
+            night = getattr(self._play, "night", None)
+            if night is not None:
+                self.sky.be_night()
+                esper.create_entity(Atmosphere(night, latitude=45.0, speed=0.0, draw=True))
             if metar is not None:
                 self._report(metar)
-            elif preset not in PRESETS and preset not in SKIES:
+            elif not (preset in PRESETS or preset in SKIES or self._has_whole_play):
                 self._load(preset)
         except WeatherError:
             self.scene.release()
@@ -276,11 +282,37 @@ class Game:
 
     def _follow_play(self, play: Play) -> None:
         turn = play.at(self.time, self.mood.target.wind_heading)
+        if turn.whole is not None:
+            self._follow_whole(turn, turn.whole)
+            return
         self.mood.put(turn.mood, turn.name)
         self._scape.let_rain(turn.rains)
         self.weather.speed = turn.speed
         if turn.settling is not None:
             self._entities.flakes.settling = turn.settling
+
+    def _follow_whole(self, turn: Turn, name: str) -> None:
+        """A tour whose weather is a whole one."""
+        self.weather.speed = turn.speed
+        begins = not self._asked
+        if name != self._asked:
+            self._asked = name
+            self._scape.show(False)
+            mood = self.mood.current
+            self.wholes.go(self.weather, name, turn.seconds, mood, turn.center)
+        whole = self.wholes.mood(self.weather)
+        if begins and whole is not None:
+            self.mood.put(*whole)
+        area = self.wholes.area(self.weather)
+        if area is not None and area.center != turn.center:
+            area.center = turn.center
+        for place in turn.strikes[self._called :]:
+            self.weather.strike(place)
+        self._called = len(turn.strikes)
+
+    @property
+    def _has_whole_play(self) -> bool:
+        return getattr(self._play, "has_whole", False)
 
     def _carry_letter(self, dt: float) -> None:
         player, letter = self.player, self.letter

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from demo_game.mood import CLIMATE, Mood, blend, climate_mood, preset_mood
+from demo_game.wholes import CENTER
 
 
 @dataclass(frozen=True)
@@ -17,6 +18,10 @@ class Turn:
     speed: float = 1.0  # s of weather in a second
     rains: bool = False  # whether the clouds of the sky bring their own rain
     settling: float | None = None  # how fast snow settles; None: as in play
+    whole: str | None = None  # a whole weather in place of the mood
+    seconds: float = 0.0  # of weather, in which it comes
+    center: tuple[float, float] = CENTER  # (x, z), m, of its rain
+    strikes: tuple[tuple[float, float, float], ...] = ()  # that were called up to now, m
 
 
 class Play(Protocol):
@@ -81,3 +86,53 @@ class SnowPlay:
         begin, end = self.CALM
         speed = self._before if u < begin else self._after if u > end else 1.0
         return Turn(blend(rests, snows, share), "heavy_snow", speed, settling=self._settling)
+
+
+class ThunderPlay:
+    """A fine day on which a thunderstorm comes up, in the time-lapse that a short tour needs.
+
+    From `STEADY` on the weather runs at its own speed, and lightning strikes ahead.
+    """
+
+    has_whole = True
+    BEGINS, STEADY = 0.05, 0.52  # shares of the tour
+    LENGTH = 110.0  # s of weather in which the storm comes
+    FROM, TO = (-600.0, -9500.0), (0.0, -2500.0)  # (x, z), m, of the middle of its rain
+    STRIKES = (
+        (0.56, (-260.0, 0.0, -1150.0)),
+        (0.66, (210.0, 0.0, -760.0)),
+        (0.77, (-90.0, 0.0, -620.0)),
+        (0.88, (60.0, 0.0, -430.0)),
+    )  # share of the tour, m
+
+    def __init__(self, duration: float) -> None:
+        self._duration = duration
+        passed = (self.STEADY - self.BEGINS) * duration
+        self._speed = min(max(self.LENGTH / passed, 1.0), 900.0)
+
+    def at(self, time: float, wind_heading: float) -> Turn:
+        """The weather at `time` s of the tour."""
+        u = time / self._duration
+        share = min(max((u - self.BEGINS) / (1.0 - self.BEGINS), 0.0), 1.0)
+        (x0, z0), (x1, z1) = self.FROM, self.TO
+        fair = u < self.BEGINS
+        return Turn(
+            preset_mood("clear", wind_heading),
+            "",
+            1.0 if fair or u >= self.STEADY else self._speed,
+            whole="fair_cumulus" if fair else "thunderstorm",
+            seconds=0.0 if fair else self.LENGTH,
+            center=(x0 + share * (x1 - x0), z0 + share * (z1 - z0)),
+            strikes=tuple(place for at, place in self.STRIKES if at <= u),
+        )
+
+
+class NightPlay:
+    """A night of showers under a full moon."""
+
+    has_whole = True
+    night = "2025-03-13T21:30:00Z"  # UTC, at 45 degrees north
+
+    def at(self, time: float, wind_heading: float) -> Turn:
+        """The weather at `time` s of the tour."""
+        return Turn(preset_mood("clear", wind_heading), "", whole="showers")

@@ -62,6 +62,12 @@ TIMES = (
     ),
 )  # fmt: skip
 
+# Under a full moon, which an `Atmosphere` shows; it stands there on the evening of the night tour.
+NIGHT = TimeOfDay(
+    "night", _towards(130.0, 38.0),
+    (0.050, 0.058, 0.075), (0.010, 0.014, 0.026), (0.020, 0.025, 0.038), (0.008, 0.008, 0.010), 1.0,
+)  # fmt: skip
+
 
 def light(before: TimeOfDay, after: TimeOfDay, share: float) -> Light:
     """The light on the way from one time of day to another, under a clear sky."""
@@ -168,6 +174,11 @@ class SkyChanger:
         self._index = (self._index + 1) % len(TIMES)
         self._before, self._after = self._after, TIMES[self._index]
         self._time = 0.0
+
+    def be_night(self) -> None:
+        """Be at night at once."""
+        self._before = self._after = NIGHT
+        self._time = self.CHANGE_TIME
 
     def update(self, dt: float) -> None:
         """Let dt seconds pass."""

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from demo_game.camera import Pose
 from demo_game.curve import Smooth
 from demo_game.player import EYE_HEIGHT, Ground
-from demo_game.plays import Play, SnowPlay, StormPlay
+from demo_game.plays import NightPlay, Play, SnowPlay, StormPlay, ThunderPlay
 
 
 class Moment(NamedTuple):
@@ -43,6 +43,22 @@ SNOW = (
     Moment(0.60, -3.8, -43.4, -26.0, -4.0),
     Moment(0.80, -2.8, -45.4, -30.0, -1.0, "after"),
     Moment(1.00, -2.0, -47.0, -34.0, 0.0),
+)
+
+
+STORM = (
+    Moment(0.00, 0.4, 68.0, 4.0, 9.0, "fair"),
+    Moment(0.30, 0.9, 60.0, 8.0, 11.0, "it comes up"),
+    Moment(0.52, 3.0, 46.0, -4.0, 9.0, "the storm"),
+    Moment(0.75, -1.0, 26.0, 2.0, 8.0),
+    Moment(1.00, -1.0, 4.0, -2.0, 6.0),
+)
+NIGHT = (
+    Moment(0.00, 0.6, 22.0, 2.0, 6.0, "by lamps"),
+    Moment(0.35, -1.0, 2.0, -4.0, 3.0),
+    Moment(0.60, 0.2, -16.0, -10.0, 3.0, "the cabin"),
+    Moment(0.80, 0.2, -28.0, -22.0, 2.0),
+    Moment(1.00, 0.2, -36.0, -30.0, 2.0),
 )
 
 
@@ -83,3 +99,13 @@ def clouds_tour(ground: Ground, duration: float) -> SkyTour:
 def snow_tour(ground: Ground, duration: float) -> SkyTour:
     """Before the cabin, while it begins to snow, snows and stops."""
     return SkyTour("snow", ground, duration, SNOW, SnowPlay(duration))
+
+
+def storm_tour(ground: Ground, duration: float) -> SkyTour:
+    """Along the path towards a thunderstorm that comes up."""
+    return SkyTour("storm", ground, duration, STORM, ThunderPlay(duration))
+
+
+def night_tour(ground: Ground, duration: float) -> SkyTour:
+    """Along the lamps to the cabin by night, in a shower."""
+    return SkyTour("night", ground, duration, NIGHT, NightPlay())

@@ -1,8 +1,8 @@
 """Scripted ways through the place: a pose for every moment, the same at any frame rate.
 
 `walk` shows every stage within the time it is given: it goes as fast as that needs, each stage
-having its share of the time (`WALK`); so do `clouds` and `snow`. `run` and `crossing` move at a
-true speed.
+having its share of the time (`WALK`); so do those of the sky. `run` and `crossing` move at a true
+speed.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from demo_game.curve import Smooth
 from demo_game.player import RUN_SPEED, Ground
 from demo_game.route import Glance, Key, Look, Route, stage_at
 from demo_game.tour import WALKING, Tour, WalkTour
-from demo_game.tour_sky import clouds_tour, snow_tour
+from demo_game.tour_sky import clouds_tour, night_tour, snow_tour, storm_tour
 
-TOURS = ("walk", "run", "crossing", "still", "clouds", "snow")
+TOURS = ("walk", "run", "crossing", "still", "clouds", "snow", "storm", "night")
 
 EDGE_Z = -25.0  # m, where the way crosses the perimeter of the rain area
 CURTAIN = (0.0, 16.0, -60.0)  # what one looks at from outside
@@ -80,6 +80,10 @@ def make_tour(name: str, ground: Ground, duration: float, speed: float = WALKING
         return clouds_tour(ground, duration)
     if name == "snow":
         return snow_tour(ground, duration)
+    if name == "storm":
+        return storm_tour(ground, duration)
+    if name == "night":
+        return night_tour(ground, duration)
     raise ValueError(f"tour: got {name!r}, allowed: {', '.join(TOURS)}")
 
 

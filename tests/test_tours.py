@@ -64,7 +64,7 @@ def test_walk_starts_dry_crosses_and_ends_dry() -> None:
     assert np.abs(np.diff(steps)).max() < 0.2 * steps.max()  # no jerk in speed
 
 
-@pytest.mark.parametrize("name", ["walk", "run", "crossing", "clouds", "snow"])
+@pytest.mark.parametrize("name", ["walk", "run", "crossing", "clouds", "snow", "storm", "night"])
 def test_looks_turn_gently(name: str) -> None:
     tour = make_tour(name, GROUND, 599 / 60)
     poses = [tour.pose(i / 60) for i in range(600)]
@@ -98,7 +98,7 @@ def test_one_frame_is_enough() -> None:
 
 
 def test_an_unknown_tour_is_refused() -> None:
-    with pytest.raises(ValueError, match="walk, run, crossing, still, clouds, snow"):
+    with pytest.raises(ValueError, match="walk, run, crossing, still, clouds, snow, storm, night"):
         make_tour("moon", GROUND, 1.0)
 
 
@@ -138,6 +138,22 @@ def test_the_snow_tour_begins_snows_and_stops(frames: int) -> None:
     assert during.speed == 1.0
     assert before.speed >= 1.0
     assert 1.0 <= (during.settling or 0.0) <= 100.0
+
+
+@pytest.mark.parametrize("frames", [30, 600, 60_000])
+def test_the_storm_tour_brings_a_storm_and_strikes(frames: int) -> None:
+    duration = (frames - 1) / 60
+    play = make_tour("storm", GROUND, duration).play
+    assert play is not None
+    turns = [play.at(u * duration, 0.0) for u in np.linspace(0.0, 1.0, 101)]
+    assert [turns[0].whole, turns[-1].whole] == ["fair_cumulus", "thunderstorm"]
+    assert {turn.speed for turn in turns[53:]} == {1.0}
+    counts = [len(turn.strikes) for turn in turns]
+    assert counts[50] == 0  # none in the time-lapse
+    assert counts[-1] >= 3
+    assert (np.diff(counts) >= 0).all()
+    centers = np.array([turn.center for turn in turns])
+    assert (np.diff(centers[:, 1]) >= 0.0).all()  # its rain comes nearer
 
 
 @given(st.lists(st.floats(-10, 10), min_size=3, max_size=8))
