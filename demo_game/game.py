@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections import deque
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -45,6 +46,7 @@ METAR = "metar"  # in place of a preset's name until the report is read
 GLOOM = 1.2  # times what a rain cloud takes, under a whole sky of it
 FLASH_TIME = 2.5  # s of weather after a strike in which its flash may go on
 STRIKE_AHEAD, SPREAD = 900.0, 0.3  # m and rad, of a strike that the player calls
+MARK, MARKS = 2.0, 60  # s, and how many of them are kept
 HEARD_FROM = 1.0  # m that the player's ears move before the weather is told
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings its own clouds
@@ -87,6 +89,9 @@ class Game:
         self.wholes = Wholes()
         self._play = getattr(tour, "play", None)
         self._asked, self._called = "", 0
+        # State of the skies and mm/h, every MARK s of play, for the readout's strip.
+        self.history: deque[tuple[float, float]] = deque(maxlen=MARKS)
+        self._next_mark = 0.0
         self.report: Any = None  # of METAR, if there is one
         if metar is not None or self._has_whole_play:
             # Theirs is to count from the first frame on.
@@ -154,6 +159,10 @@ class Game:
         whole = self.wholes.mood(self.weather)
         if whole is not None:
             self.mood.follow(*whole)
+        if self.time >= self._next_mark:
+            self._next_mark = self.time + MARK
+            now = self.mood.current
+            self.history.append((now.state, now.rain_rate + now.carried))
         self.sky.update(dt)
         share = self._showers.share(self.time) if self.tour is None else 1.0
         scenery = self._scenery()

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import pyglet
+
 from demo_game.compass import compass
+from demo_game.game import MARKS
 from demo_game.ui.theme import MARGIN, PADDING, TEXT_DIM, Frame, Layer, Rect, Text
 from weather_ecs import Sample
 
@@ -32,6 +36,8 @@ WIDTH = 390.0  # units
 ROW = 22.0
 NAME_WIDTH = 128.0
 SIZE = 14.0
+STRIP = 44.0  # at the foot, of the state over time
+DRY, WET = (190, 190, 180), (80, 150, 255)  # colours of its bars
 
 INTERVAL = 0.25  # s between two readings; figures that change faster cannot be read
 
@@ -45,7 +51,7 @@ class Readout:
     def __init__(self, frame: Frame) -> None:
         self._layer = layer = Layer(frame)
         px = frame.px
-        height = px(ROW * len(ROWS) + 2 * PADDING)
+        height = px(ROW * len(ROWS) + STRIP + 2 * PADDING)
         self.panel = Rect(px(MARGIN), frame.height - px(MARGIN) - height, px(WIDTH), height)
         layer.panel(self.panel)
         self._values: dict[str, Text] = {}
@@ -55,6 +61,24 @@ class Readout:
             if not name[-1].isdigit():
                 layer.text(name, x, y, SIZE, color=TEXT_DIM)
             self._values[name] = layer.text("", x + px(NAME_WIDTH), y, SIZE)
+
+        self._strip: list[pyglet.shapes.Rectangle] = []
+        side = (px(WIDTH) - 2 * px(PADDING)) / MARKS
+        for index in range(MARKS):
+            x, y = self.panel.x + px(PADDING) + index * side, self.panel.y + px(PADDING)
+            bar = pyglet.shapes.Rectangle(
+                x, y, side * 0.8, 1.0, color=DRY, batch=layer.batch, group=layer.marks
+            )
+            self._strip.append(layer.add(bar))
+
+    def show_strip(self, history: Sequence[tuple[float, float]]) -> None:
+        """State of the skies (height) and rain in mm/h (blue) over time, the newest right."""
+        past = [(0.0, 0.0)] * (MARKS - len(history)) + list(history)
+        for bar, (state, rate) in zip(self._strip, past[-MARKS:], strict=True):
+            bar.height = max(1.0, state * self._layer.frame.px(STRIP - 8.0))
+            wet = 1.0 - math.exp(-rate / 6.0)
+            r, g, b = (round(dry + wet * (blue - dry)) for dry, blue in zip(DRY, WET, strict=True))
+            bar.color = (r, g, b, 255)
 
     def show(self, values: Mapping[str, str]) -> None:
         """Set the values; a name without one is left empty."""

@@ -129,6 +129,7 @@ class Overlay:
         if self._since >= INTERVAL:
             self._since = 0.0
             mood = game.mood.current
+            view.show_strip(game.history)
             view.show(
                 readout_values(
                     here=game.weather.sample(game.pose.eye),
