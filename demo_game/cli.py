@@ -7,7 +7,7 @@ import math
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from demo_game.game import START
 from demo_game.headless import HeadlessOptions, TourError, encoder_is_installed, run_tour
@@ -91,6 +91,13 @@ def _preset(text: str) -> str:
     raise argparse.ArgumentTypeError(f"got {text!r}, allowed: {allowed}, or a file, NAME.toml")
 
 
+def _report(text: str) -> Any:
+    try:
+        return read_report(text)
+    except WeatherError as error:
+        raise argparse.ArgumentTypeError(" ".join(str(error).split())) from error
+
+
 def build_parser() -> argparse.ArgumentParser:
     """The parser of `python -m demo_game`."""
     parser = _Parser(
@@ -152,6 +159,7 @@ def build_parser() -> argparse.ArgumentParser:
     )
     add(
         "--metar",
+        type=_report,
         metavar="REPORT",
         default=None,
         help="a METAR report in quotes, whose weather takes the place of the preset; what was "
@@ -209,12 +217,9 @@ def _run(options: argparse.Namespace) -> int:
         fullscreen=options.fullscreen,
     )
     if options.metar is not None:
-        try:
-            report = read_report(options.metar)
-        except WeatherError as error:
-            return _refuse(f"argument --metar: {error}")
         if options.headless:
-            print(report)
+            print(options.metar)
+        options.metar = options.metar.text
     if options.headless:
         return _tour(options, settings)
     from demo_game.display import NoDisplay, open_window

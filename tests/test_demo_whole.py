@@ -49,7 +49,9 @@ def test_a_report_is_read_before_anything_is_built() -> None:
 
 @pytest.mark.parametrize("text", ["", "nonsense", "EHAM 020825Z", "x" * 100_000])
 def test_a_bad_report_is_refused_in_one_line(text: str, capsys: pytest.CaptureFixture) -> None:
-    assert cli.main(["--headless", f"--metar={text}"]) == 2
+    with pytest.raises(SystemExit) as end:
+        cli.main(["--headless", f"--metar={text}"])
+    assert end.value.code == 2
     said = capsys.readouterr()
     assert said.err.startswith("demo_game: argument --metar: ")
     assert said.err.count("\n") == 1
