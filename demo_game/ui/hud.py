@@ -32,11 +32,11 @@ ROWS = (
     "report 2",
     "report 3",
 )
-WIDTH = 390.0  # units
-ROW = 22.0
-NAME_WIDTH = 128.0
-SIZE = 14.0
-STRIP = 44.0  # at the foot, of the state over time
+WIDTH = 360.0  # units
+ROW = 18.5
+NAME_WIDTH = 112.0
+SIZE = 12.5
+STRIP = 36.0  # at the foot, of the state over time
 DRY, WET = (190, 190, 180), (80, 150, 255)  # colours of its bars
 
 INTERVAL = 0.25  # s between two readings; figures that change faster cannot be read
