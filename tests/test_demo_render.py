@@ -242,8 +242,9 @@ def test_an_unknown_quality_is_refused(scene: SceneRenderer) -> None:
 
 
 def test_the_block_is_laid_out_as_the_shader_has_it(scene: SceneRenderer) -> None:
-    for program in scene._ground.programs:
-        assert program["Frame"].size == FRAME_DTYPE.itemsize
+    for defines in ((), ("WATER", "CLOUDED"), ("WATER", "SNOWS")):
+        for program in scene._choose(defines):
+            assert program["Frame"].size == FRAME_DTYPE.itemsize
 
 
 def test_includes_are_taken_in_once() -> None:

@@ -57,6 +57,13 @@ class Environment:
     actor_snow: tuple[float, float] = (0.0, 0.0)  # m, on the figure and on the sails
     lamps: float | None = None  # 0..1, how bright lamps burn; None: as the daylight asks
 
+    @property
+    def defines(self) -> tuple[str, ...]:
+        """What shaders are made for: WATER on the ground, SNOWS, CLOUDED."""
+        found = {"WATER": self.water, "SNOWS": self.water and self.snow}
+        found["CLOUDED"] = self.cloud_shadow
+        return tuple([name for name, there in found.items() if there])
+
     def lamp_strength(self) -> float:
         """How bright the lamps burn, 0..1."""
         if self.lamps is not None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from demo_game.place import Place, bake, flag
 
 from .frame_block import FrameBlock
-from .programs import compile_program, release_all
+from .programs import Look, Variants, compile_program, release_all
 
 COLUMNS, ROWS = 24, 12
 
@@ -18,27 +18,31 @@ class Flag:
     """A grid that the vertex shader waves."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.program = compile_program(ctx, "flag.vert", "object.frag", "SOFT")
-        block.attach(self.program)
         self._hoist = flag.hoist(place.terrain)
         lamps = [(lamp.position, max(lamp.color)) for lamp in place.lamps]
         light = bake.lamp_light(self._hoist[None], np.array([[0.0, 1.0, 0.0]]), lamps, [])
-        self.program["hoist"] = (*self._hoist.tolist(), float(light[0]))
-        self.program["size"] = flag.SIZE
         self._vertices = ctx.buffer(grid().tobytes())
         content = [(self._vertices, "2f4 3f4", "in_grid", "in_color")]
-        self._array = ctx.vertex_array(self.program, content)
+
+        def look(*defines: str) -> Look:
+            program = compile_program(ctx, "flag.vert", "object.frag", "SOFT", *defines)
+            block.attach(program)
+            program["hoist"] = (*self._hoist.tolist(), float(light[0]))
+            program["size"] = flag.SIZE
+            return program, [ctx.vertex_array(program, content)]
+
+        self.looks = (Variants(look),)
 
     def draw(self, planes: NDArray, camera: NDArray) -> None:
         """Draw it where it may be seen, from both sides."""
         reach = float(np.hypot(*flag.SIZE))
         seen = (planes[:, :3] @ self._hoist + planes[:, 3] > -reach).all()
         if seen and np.linalg.norm(camera - self._hoist) < flag.SEEN:
-            self._array.render(moderngl.TRIANGLES)
+            self.looks[0].arrays[0].render(moderngl.TRIANGLES)
 
     def release(self) -> None:
         """Give everything back."""
-        release_all((self._array, self._vertices, self.program))
+        release_all((*self.looks, self._vertices))
 
 
 def grid() -> NDArray:

@@ -73,13 +73,7 @@ class FrameBlock:
         row["ground_color"] = (*env.ground_color, 0.0)
         breeze = self._breeze
         breeze.advance(time, env.wind)
-        wets = 0.0 if env.water is None else 2.0 if env.snow else 1.0
-        row["drift"] = (
-            float(env.cloud_shadow is not None),
-            float(env.air is not None),
-            wets,
-            breeze.wave,
-        )
+        row["drift"] = (0.0, float(env.air is not None), 0.0, breeze.wave)
         row["wind"] = (*breeze.way, breeze.front, breeze.sway)
         row["gusts"] = breeze.past().reshape(-1, 4)
         areas = [a for a in env.rain_areas if a[3] > 0.0][:AREAS]

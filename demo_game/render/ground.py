@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +13,7 @@ from demo_game.place import Place, paint
 from . import geometry
 from .environment import Environment
 from .frame_block import FrameBlock
-from .programs import compile_program, release_all, set_uniforms
+from .programs import Look, Variants, compile_program, release_all, set_uniforms
 
 COARSE_FROM = 48.0  # m, from where chunks have few triangles
 DRIES = 1800.0  # s after the last rain until the ground is certainly dry
@@ -23,20 +25,6 @@ class Ground:
     """Chunks of the ground; those that are wet anywhere take the wet program."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.far = compile_program(ctx, "ground.vert", "ground.frag")
-        self.dry = compile_program(ctx, "ground.vert", "ground.frag", "NEAR")
-        self.wet = compile_program(ctx, "ground.vert", "ground.frag", "NEAR", "WET")
-        self.live = [
-            compile_program(ctx, "ground.vert", "ground.frag", "NEAR", "LIVE", *more)
-            for more in ((), ("WET",))
-        ]
-        self.programs = (self.far, self.dry, self.wet, *self.live)
-        block.attach(*self.programs)
-        size = paint.HIGH - paint.LOW
-        for program in self.programs:
-            window = (*paint.LOW.tolist(), *(1.0 / size).tolist())
-            set_uniforms(program, map_window=window)
-            set_uniforms(program, **UNITS)
         mesh = place.ground
         data = np.zeros(
             len(mesh.vertices), [("position", "f4", 3), ("normal", "i1", 4), ("color", "u1", 4)]
@@ -49,8 +37,17 @@ class Ground:
         self._indices = ctx.buffer(mesh.indices.tobytes())
         content = [(self._vertices, "3f4 4i1 4f1", "in_position", "in_normal", "in_color")]
         short = [(self._vertices, "3f4 4i1 4x1", "in_position", "in_normal")]
-        self._arrays = [ctx.vertex_array(self.far, content, self._indices)]
-        self._arrays += [ctx.vertex_array(p, short, self._indices) for p in self.programs[1:]]
+
+        def look(*defines: str) -> Look:
+            program = compile_program(ctx, "ground.vert", "ground.frag", *defines)
+            block.attach(program)
+            window = (*paint.LOW.tolist(), *(1.0 / (paint.HIGH - paint.LOW)).tolist())
+            set_uniforms(program, map_window=window, **UNITS)
+            near = short if "NEAR" in defines else content
+            return program, [ctx.vertex_array(program, near, self._indices)]
+
+        kinds = [(), *[("NEAR", *live, *wet) for live in ((), ("LIVE",)) for wet in ((), ("WET",))]]
+        self.looks = tuple([Variants(partial(look, *kind)) for kind in kinds])
         self._chunks, self._coarse = mesh.chunks, mesh.coarse
         self._block, self._dry_from = block, np.zeros(len(mesh.low))
         self._low, self._high = mesh.low, mesh.high
@@ -119,7 +116,7 @@ class Ground:
             if sharp and kind[starts[k]] == 0:
                 self._soft.use(UNITS["meadow_map"])
                 sharp = False
-            array = self._arrays[kind[starts[k]]]
+            array = self.looks[kind[starts[k]]].arrays[0]
             part = ranges[starts[k] : ends[k]]
             breaks = np.flatnonzero(part[1:, 0] != part[:-1].sum(1)) + 1
             for piece in np.split(part, breaks):
@@ -131,8 +128,7 @@ class Ground:
     def release(self) -> None:
         """Give everything back."""
         samplers = self._sharp, self._soft, self._grain
-        release_all((*self._arrays, self._vertices, self._indices, self.map, *samplers))
-        release_all(self.programs)
+        release_all((*self.looks, self._vertices, self._indices, self.map, *samplers))
 
 
 def _sampler(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import cache
 from importlib import resources
 from typing import Protocol
@@ -41,6 +41,33 @@ def compile_program(
     """A program of two shader files under some defines."""
     head = "#version 330 core\n" + "".join(f"#define {name}\n" for name in defines)
     return ctx.program(vertex_shader=head + source(vertex), fragment_shader=head + source(fragment))
+
+
+Look = tuple[moderngl.Program, list[moderngl.VertexArray]]
+
+
+class Variants:
+    """A program and what is drawn with it, made for each set of defines when first asked for.
+
+    A condition in a shader costs its whole body on a driver that draws on the CPU, met or not.
+    """
+
+    def __init__(self, make: Callable[..., Look]) -> None:
+        self._make = make
+        self._made: dict[tuple[str, ...], Look] = {}
+        self.program: moderngl.Program  # there from the first choice on
+        self.arrays: list[moderngl.VertexArray]
+
+    def choose(self, defines: tuple[str, ...]) -> None:
+        """From here on these defines."""
+        if defines not in self._made:
+            self._made[defines] = self._make(*defines)
+        self.program, self.arrays = self._made[defines]
+
+    def release(self) -> None:
+        """Give everything back."""
+        for program, arrays in self._made.values():
+            release_all((*arrays, program))
 
 
 def set_uniforms(program: moderngl.Program, **values: object) -> None:

@@ -53,20 +53,10 @@ class SceneRenderer:
         self._detail = ctx.texture((table.shape[1], table.shape[0]), 4, table.tobytes())
         self._detail.build_mipmaps()
         self._detail.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
-        units = {"shadow_map": SHADOW_UNIT, "detail_map": DETAIL_UNIT, "leaf_map": LEAF_UNIT}
-        solid = (self._statics.program, self._actors.program, self._trees.program,
-                 self._trees.solid, self._meadow.program, self._flag.program)  # fmt: skip
-        for program in solid:
-            set_uniforms(program, **units)
-        self._lit = (*solid, *self._ground.programs)
-        self._wet = (*self._lit, self._water.program)
-        for program in self._wet:
-            # Until the weather's water is there, anything of the right kind.
-            set_uniforms(program, weather_wet_map=DETAIL_UNIT, weather_wet_far=DETAIL_UNIT)
-            set_uniforms(program, weather_shadow_map=DETAIL_UNIT)
-            self._block.attach(program, name="WeatherWetness")
-            self._block.attach(program, name="WeatherCloudShadow")
-            self._block.attach(program, name="WeatherAir")
+        solid = (self._statics, self._actors, self._trees, self._meadow, self._flag, self._ground)
+        self._looks = [look for part in (*solid, self._water) for look in part.looks]
+        self._prepared: set[moderngl.Program] = set()
+        self._defines: tuple[str, ...] | None = None
         self._flashes = False
         self._make_sized()
         self._released = False
@@ -108,20 +98,21 @@ class SceneRenderer:
         planes = geometry.frustum_planes(p @ v)
         sun = unit(environment.sun_direction)
         self.ctx.wireframe = False
+        lit = self._choose(environment.defines)
         self._actors.pose(time, environment.actor_snow)
         self._update_shadows(sun, camera)
         self._block.fill(time, environment, self._shadows.lookup)
         self._block.upload()
         full = tuple(SUN_STRENGTH * c for c in environment.sun_color)
-        for program in self._lit:
-            program["sun_full"] = full
+        for program in lit:
+            set_uniforms(program, sun_full=full)
         if environment.water is not None:
-            for program in self._wet:
+            for program in lit:
                 environment.water.use(program, WATER_UNIT)
         if environment.cloud_shadow is not None:
-            for program in self._wet:
+            for program in lit:
                 environment.cloud_shadow.use(program, CLOUD_UNIT)
-        self._light_up(environment.air)
+        self._light_up(lit, environment.air)
         self._sky.paint(camera, environment)
         target.use()
         target.viewport = viewport
@@ -132,9 +123,29 @@ class SceneRenderer:
         self._sky.draw(v, p)
         self._draw_blended(target, v, planes, camera, environment.ripples)
 
-    def _light_up(self, air: Air | None) -> None:
+    def _choose(self, defines: tuple[str, ...]) -> list[moderngl.Program]:
+        """The programs of what is lit, as the weather is now."""
+        if defines != self._defines:
+            self._defines, self._flashes = defines, True  # those chosen may still have its block
+        for look in self._looks:
+            look.choose(defines)
+            if look.program not in self._prepared:
+                self._prepared.add(look.program)
+                self._prepare(look.program)
+        return [look.program for look in self._looks]
+
+    def _prepare(self, program: moderngl.Program) -> None:
+        """Maps and blocks; until the weather's are there, anything of the right kind."""
+        units = {"shadow_map": SHADOW_UNIT, "detail_map": DETAIL_UNIT, "leaf_map": LEAF_UNIT}
+        for name in ("weather_wet_map", "weather_wet_far", "weather_shadow_map"):
+            units[name] = DETAIL_UNIT
+        set_uniforms(program, **units)
+        for name in ("WeatherWetness", "WeatherCloudShadow", "WeatherAir"):
+            self._block.attach(program, name=name)
+
+    def _light_up(self, lit: list[moderngl.Program], air: Air | None) -> None:
         """Let lightning light everything; when it is over, nothing reads the weather's block."""
-        for program in (*self._wet, self._sky.program) if air is not None or self._flashes else ():
+        for program in (*lit, self._sky.program) if air is not None or self._flashes else ():
             if air is not None:
                 air.use(program)
             else:

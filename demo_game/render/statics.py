@@ -12,7 +12,7 @@ from demo_game.place.mesh import merge
 from . import geometry
 from .frame_block import FrameBlock
 from .geometry import PLAIN_FORMAT, PLAIN_NAMES, VERTEX_FORMAT, VERTEX_NAMES
-from .programs import compile_program, release_all, set_matrix
+from .programs import Look, Variants, compile_program, release_all, set_matrix, set_uniforms
 
 CABIN_NEAR = 44.0  # m, within which the cabin has all its planks
 # m, from where to where a mesh is drawn; others always are
@@ -28,9 +28,7 @@ class Statics:
     """All static meshes in one buffer, in pieces."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.program = compile_program(ctx, "object.vert", "object.frag", "GRAIN")
         self.shadow = compile_program(ctx, "shadow.vert", "shadow.frag")
-        block.attach(self.program)
         vertices, indices, ranges, lows, highs, reach, names = [], [], [], [], [], [], []
         vertex_count = index_count = 0
         for name, mesh in place.meshes.items():
@@ -60,7 +58,13 @@ class Statics:
         )
         self._shadow_count = index_count - place.meshes["cabin_far"].indices.size
         whole = (self._vertices, VERTEX_FORMAT, *VERTEX_NAMES)
-        self._array = ctx.vertex_array(self.program, [whole], self._indices)
+
+        def look(*defines: str) -> Look:
+            program = compile_program(ctx, "object.vert", "object.frag", "GRAIN", *defines)
+            block.attach(program)
+            return program, [ctx.vertex_array(program, [whole], self._indices)]
+
+        self.looks = (Variants(look),)
         self._close = ctx.sampler(filter=(moderngl.LINEAR, moderngl.LINEAR))
         bare = (self._vertices, "3f4 16x1", "in_position")
         self._shadow_array = ctx.vertex_array(self.shadow, [bare], self._indices)
@@ -75,8 +79,9 @@ class Statics:
         inside = switch.min() == 0.0
         if inside:  # the picture is full of boards, all of them close
             self._close.use(GRAIN_UNIT)
+        array = self.looks[0].arrays[0]
         for first, count in self._ranges[chosen[np.argsort(away[chosen])]].tolist():
-            self._array.render(vertices=count, first=first)
+            array.render(vertices=count, first=first)
         if inside:
             self._close.clear(GRAIN_UNIT)
 
@@ -91,8 +96,8 @@ class Statics:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all((self._array, self._shadow_array, self._vertices, self._indices))
-        release_all((self._close, self.program, self.shadow))
+        release_all((*self.looks, self._shadow_array, self._vertices, self._indices))
+        release_all((self._close, self.shadow))
 
 
 class Actors:
@@ -100,16 +105,20 @@ class Actors:
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
         self._place = place
-        self.program = compile_program(ctx, "object.vert", "object.frag", "PARTS")
         self.shadow = compile_program(ctx, "shadow.vert", "shadow.frag", "PARTS")
-        block.attach(self.program)
         mesh = merge([place.meshes["figure"], place.meshes["sails"]])
         self._vertices = ctx.buffer(geometry.pack(mesh).tobytes())
         self._indices = ctx.buffer(mesh.indices.tobytes())
         self._split = place.meshes["figure"].indices.size
         self._total = mesh.indices.size
         whole = (self._vertices, PLAIN_FORMAT, *PLAIN_NAMES)
-        self._array = ctx.vertex_array(self.program, [whole], self._indices)
+
+        def look(*defines: str) -> Look:
+            program = compile_program(ctx, "object.vert", "object.frag", "PARTS", *defines)
+            block.attach(program)
+            return program, [ctx.vertex_array(program, [whole], self._indices)]
+
+        self.looks = (Variants(look),)
         bare = (self._vertices, "3f4 8x1 4f1 4x1", "in_position", "in_extra")
         self._shadow_array = ctx.vertex_array(self.shadow, [bare], self._indices)
         self._sails = place.meshes["sails"]
@@ -120,16 +129,17 @@ class Actors:
 
     def pose(self, time: float, snow: tuple[float, float] = (0.0, 0.0)) -> None:
         """Take the pose of a time, s, with so much snow (m) on the figure and on the sails."""
-        self.program["part_snow"] = snow
+        program = self.looks[0].program
+        set_uniforms(program, part_snow=snow)
         poses = [*self._place.figure_pose(time).values(), *self._place.mover_pose(time).values()]
         padded = [*poses, *[np.eye(4)] * (PARTS - len(poses))]
-        set_matrix(self.program, "parts", *padded)
+        set_matrix(program, "parts", *padded)
         set_matrix(self.shadow, "parts", *padded)
         body, sails = poses[0][:3, 3], poses[-1][:3, 3]
         self.spheres = [(body, 1.15), (sails, self._radius)]
         gap = np.sum((self._lamps - body) ** 2, axis=1)
         light = float(np.sum(self._strength * 1.2 / (gap + 1.2)))
-        self.program["part_light"] = (light, 0.0, 0.0, 0.0)
+        program["part_light"] = (light, 0.0, 0.0, 0.0)
 
     def draw(self, planes: NDArray, camera: NDArray) -> None:
         """Draw those that are seen."""
@@ -138,7 +148,7 @@ class Actors:
             seen = (planes[:, :3] @ center + planes[:, 3] > -radius).all()
             near = np.linalg.norm(center - camera) < ACTOR_REACH + 20.0 * radius
             if seen and near:
-                self._array.render(vertices=end - first, first=first)
+                self.looks[0].arrays[0].render(vertices=end - first, first=first)
             first = end
 
     def draw_shadow(self, matrix: NDArray) -> None:
@@ -148,5 +158,5 @@ class Actors:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all((self._array, self._shadow_array, self._vertices, self._indices))
-        release_all((self.program, self.shadow))
+        release_all((*self.looks, self._shadow_array, self._vertices, self._indices))
+        self.shadow.release()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +14,11 @@ from demo_game.place.scatter import VARIANTS
 from . import geometry
 from .frame_block import FrameBlock
 from .geometry import PLAIN_FORMAT, PLAIN_NAMES, VERTEX_FORMAT, VERTEX_NAMES
-from .programs import compile_program, release_all, set_matrix
+from .programs import Look, Variants, compile_program, release_all, set_matrix
 from .quality import Quality
 
 SHAPES = 4 * VARIANTS
+Content = tuple[list[tuple[Any, ...]], moderngl.Buffer]  # of a vertex array, and its indices
 INSTANCE_FORMAT = "4f4 4f4/i"
 
 
@@ -23,10 +26,7 @@ class Trees:
     """Every tree; each frame those seen are sorted by shape and level."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.program = compile_program(ctx, "object.vert", "object.frag", "TREES", "LEAVES", "SOFT")
-        self.solid = compile_program(ctx, "object.vert", "object.frag", "TREES", "SOFT")
         self.shadow = compile_program(ctx, "shadow.vert", "shadow.frag", "TREES")
-        block.attach(self.program, self.solid)
         trees = place.trees
         self._shape = trees.shape
         self._center = trees.foot + np.outer(trees.height, (0.0, 0.5, 0.0))
@@ -50,7 +50,8 @@ class Trees:
         self.leaves.repeat_x = self.leaves.repeat_y = False
         self._meshes: list[list[moderngl.Buffer]] = []
         self._instances: list[moderngl.Buffer] = []
-        self._arrays: list[tuple[moderngl.VertexArray, moderngl.VertexArray]] = []
+        plain: list[Content] = []
+        holed_ones: list[Content] = []
         self._splits: list[tuple[int, int]] = []  # indices without holes, and all
         self._last: list[bytes] = [b""] * (SHAPES * flora.LEVELS)
         self._shadow_arrays: list[tuple[moderngl.VertexArray, int, moderngl.Buffer]] = []
@@ -65,21 +66,29 @@ class Trees:
                 indices = ctx.buffer(mesh.indices[order].tobytes())
                 instances = ctx.buffer(reserve=count * 32, dynamic=True)
                 placed = (instances, INSTANCE_FORMAT, "in_foot", "in_turn")
-                plain = [(vertices, PLAIN_FORMAT, *PLAIN_NAMES), placed]
-                content = [(vertices, VERTEX_FORMAT, *VERTEX_NAMES), placed]
-                pair = (ctx.vertex_array(self.solid, plain, indices),
-                        ctx.vertex_array(self.program, content, indices))  # fmt: skip
-                self._arrays.append(pair)
+                plain.append(([(vertices, PLAIN_FORMAT, *PLAIN_NAMES), placed], indices))
+                textured = (vertices, VERTEX_FORMAT, *VERTEX_NAMES)
+                holed_ones.append(([textured, placed], indices))
                 self._meshes.append([vertices, indices])
                 self._instances.append(instances)
             near = self._rows[(trees.shape == shape) & ~trees.far]
             if len(near):
                 vertices, indices = self._meshes[-3]
                 whole = ctx.buffer(near.tobytes())
-                content = [(vertices, "3f4 16x1", "in_position")]
+                content: list[tuple[Any, ...]] = [(vertices, "3f4 16x1", "in_position")]
                 content.append((whole, INSTANCE_FORMAT, "in_foot", "in_turn"))
                 array = ctx.vertex_array(self.shadow, content, indices)
                 self._shadow_arrays.append((array, len(near), whole))
+
+        def look(contents: list[Content], *defines: str) -> Look:
+            program = compile_program(ctx, "object.vert", "object.frag", "TREES", "SOFT", *defines)
+            block.attach(program)
+            return program, [ctx.vertex_array(program, *content) for content in contents]
+
+        self.looks = (
+            Variants(lambda *defines: look(plain, *defines)),
+            Variants(lambda *defines: look(holed_ones, "LEAVES", *defines)),
+        )
 
     def draw(self, planes: NDArray, camera: NDArray, quality: Quality, lowest: int = 0) -> None:
         """Draw what is seen; `lowest` is the finest level allowed."""
@@ -106,13 +115,14 @@ class Trees:
                 self._instances[slot].write(raw)
                 self._last[slot] = raw
         batches.sort()
+        bare, leafy = self.looks
         for _, slot, count in batches:  # what has no holes first: it hides the rest early
             if self._splits[slot][0]:
-                self._arrays[slot][0].render(vertices=self._splits[slot][0], instances=count)
+                bare.arrays[slot].render(vertices=self._splits[slot][0], instances=count)
         for _, slot, count in batches:
             solid, whole = self._splits[slot]
             if whole > solid:
-                self._arrays[slot][1].render(vertices=whole - solid, first=solid, instances=count)
+                leafy.arrays[slot].render(vertices=whole - solid, first=solid, instances=count)
 
     def draw_shadow(self, matrix: NDArray) -> None:
         """Draw those of the place itself from the sun."""
@@ -124,8 +134,7 @@ class Trees:
         """Give everything back."""
         for array, _, whole in self._shadow_arrays:
             release_all((array, whole))
-        for pair in self._arrays:
-            release_all(pair)
+        release_all(self.looks)
         for buffers in self._meshes:
             release_all(buffers)
-        release_all((*self._instances, self.leaves, self.program, self.solid, self.shadow))
+        release_all((*self._instances, self.leaves, self.shadow))

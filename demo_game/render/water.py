@@ -12,7 +12,14 @@ from demo_game.place.ground_mesh import pond_mesh
 from . import geometry
 from .environment import Ripples
 from .frame_block import FrameBlock
-from .programs import compile_program, release_all, set_matrix, set_uniforms
+from .programs import (
+    Look,
+    Variants,
+    compile_program,
+    release_all,
+    set_matrix,
+    set_uniforms,
+)
 
 RIPPLE_UNIT = 5
 POOL_RADIUS = 9.0  # m
@@ -24,14 +31,18 @@ class Water:
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
         self.ctx, self.level = ctx, place.pond.level
-        self.program = compile_program(ctx, "water.vert", "water.frag")
-        block.attach(self.program)
-        set_uniforms(self.program, **UNITS, ripple_map=UNITS["detail_map"])
         vertices, indices = pond_mesh(place.terrain)
         self._vertices = ctx.buffer(vertices.tobytes())
         self._indices = ctx.buffer(indices.tobytes())
         content = [(self._vertices, "4f4", "in_position")]
-        self._array = ctx.vertex_array(self.program, content, self._indices)
+
+        def look(*defines: str) -> Look:
+            program = compile_program(ctx, "water.vert", "water.frag", *defines)
+            block.attach(program)
+            set_uniforms(program, **UNITS, ripple_map=UNITS["detail_map"])
+            return program, [ctx.vertex_array(program, content, self._indices)]
+
+        self.looks = (Variants(look),)
         self._low = vertices[:, :3].min(0)[None]
         self._high = vertices[:, :3].max(0)[None]
 
@@ -43,17 +54,18 @@ class Water:
 
     def draw(self, ripples: Ripples | None = None) -> None:
         """Draw it; without ripples it lies still."""
+        look = self.looks[0]
         if ripples is not None:
-            ripples.use(self.program, RIPPLE_UNIT)
+            ripples.use(look.program, RIPPLE_UNIT)
         else:
-            self.program["ripple_scale"] = (0.0, 0.0, 0.0, 0.0)
+            look.program["ripple_scale"] = (0.0, 0.0, 0.0, 0.0)
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
         self.ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
-        self._array.render()
+        look.arrays[0].render()
 
     def release(self) -> None:
         """Give everything back."""
-        release_all((self._array, self._vertices, self._indices, self.program))
+        release_all((*self.looks, self._vertices, self._indices))
 
 
 class LampPools:

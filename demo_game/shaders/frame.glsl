@@ -11,8 +11,7 @@ layout(std140) uniform Frame {
     vec4 fog_color;       // rgb, w number of rain areas
     vec4 fog_law;         // optical depth straight up, its rim; 0 haze to 1 fog that hides hills
     vec4 wind;            // x, z where it blows to, z m/s at which gusts come, w sway phase rad
-    vec4 drift;           // x 1 where clouds have shadows, y 1 while there is lightning; z 1 where the weather wets, 2 where it snows;
-                          // w phase of waves in grass rad
+    vec4 drift;           // y 1 while there is lightning, w phase of waves in grass rad; x, z unused
     vec4 gusts[4];        // m/s, the wind now, half a second ago, and so on
     vec4 area_shape[4];   // center x, z, 1/a, 1/b
     vec4 area_turn[4];    // cos, sin of the heading, darkness, wetness

@@ -57,11 +57,9 @@ void main() {
     float snowy = 0.0;
 #ifndef NEAR
     snowy = smoothstep(0.0, 1.0, v_snow * 0.5 - 0.45 * bare);
-#elif defined(WET)
-    if (drift.z > 1.5) {
-        float deep = weather_snow(p, vec3(0.0, v_snow, 0.0)) * 1000.0;
-        snowy = smoothstep(0.0, 1.0, deep * 0.5 - 0.8 * (detail.g + detail.b) - 0.45 * bare);
-    }
+#elif defined(WET) && defined(SNOWS)
+    float deep = weather_snow(p, vec3(0.0, v_snow, 0.0)) * 1000.0;
+    snowy = smoothstep(0.0, 1.0, deep * 0.5 - 0.8 * (detail.g + detail.b) - 0.45 * bare);
 #endif
     vec3 snow = SNOW;
 #ifdef NEAR
@@ -71,12 +69,13 @@ void main() {
     wet *= 1.0 - snowy;
     vec3 color = albedo * (v_light.rgb + sun_full * (v_light.a * lit));
 #ifdef WET
+#ifdef WATER
+    float water = weather_water(p);
+    wet = weather_damp(water) * (1.0 - snowy);
+    float puddle = weather_pooled(water, 5.0 - 12.5 * detail.a);
+#else
     float puddle = clamp(detail.a * 8.5 + 0.35, 0.0, 1.0) * wet;
-    if (drift.z > 0.5) {
-        float water = weather_water(p);
-        wet = weather_damp(water) * (1.0 - snowy);
-        puddle = weather_pooled(water, 5.0 - 12.5 * detail.a);
-    }
+#endif
     puddle *= bare * (1.0 - snowy);
     color *= 1.0 - wet * (0.28 + 0.20 * bare) - 0.25 * puddle;
     vec3 view = normalize(v_view.xyz);

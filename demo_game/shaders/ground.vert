@@ -25,7 +25,10 @@ void main() {
 #ifdef NEAR
     v_snow = n.y;
 #else
-    v_snow = drift.z < 1.5 ? 0.0 : 10.0 * weather_open_snow(in_position) * smoothstep(0.5, 0.8, n.y);
+    v_snow = 0.0;
+#ifdef SNOWS
+    v_snow = 10.0 * weather_open_snow(in_position) * smoothstep(0.5, 0.8, n.y);
+#endif
 #endif
     vec3 around = sky_light(n, cover.x) + flash_light(in_position, n);
     v_light = vec4(around, sun_share(max(dot(n, sun_direction.xyz), 0.0), cover.x));

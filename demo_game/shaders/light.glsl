@@ -11,7 +11,9 @@ const float CLOUD_SHADOW = 0.85;  // of the daylight's share that rain clouds ta
 // x: share of daylight that clouds take at p, y: wetness that rain brings.
 vec2 rain_cover(vec2 p) {
     vec2 cover = vec2(0.0);
-    if (drift.x > 0.5) cover.x = CLOUD_SHADOW * (1.0 - weather_sunlight(vec3(p, 0.0).xzy));
+#ifdef CLOUDED
+    cover.x = CLOUD_SHADOW * (1.0 - weather_sunlight(vec3(p, 0.0).xzy));
+#endif
     for (int i = 0; i < int(fog_color.w); i++) {
         vec2 d = p - area_shape[i].xy;
         vec2 turn = area_turn[i].xy;
@@ -21,20 +23,28 @@ vec2 rain_cover(vec2 p) {
         cover.y = max(cover.y, area_turn[i].w * (1.0 - smoothstep(0.86, 1.02, r)));
     }
     cover.y = max(cover.y, sun_color.w);
-    if (drift.z > 0.5) cover.y = weather_damp(weather_open_wetness(vec3(p, 0.0).xzy));
+#ifdef WATER
+    cover.y = weather_damp(weather_open_wetness(vec3(p, 0.0).xzy));
+#endif
     return cover;
 }
 
 // 0 to 1: how much of a surface at p with a unit normal n snow hides.
 float snow_cover(vec3 p, vec3 n) {
-    if (drift.z < 1.5) return 0.0;
+#ifdef SNOWS
     return weather_snow_cover(weather_snow(p, n));
+#else
+    return 0.0;
+#endif
 }
 
 // The same of grass and leaves at large, and of far ground.
 float open_snow_cover(vec3 p) {
-    if (drift.z < 1.5) return 0.0;
+#ifdef SNOWS
     return weather_snow_cover(0.01 * weather_open_snow(p));
+#else
+    return 0.0;
+#endif
 }
 
 vec3 sky_light(vec3 n, float dim) {
