@@ -1,0 +1,184 @@
+"""`EditorWindow`: the window, its frame, and the panels in it."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+from typing import Any
+
+import moderngl
+import pyglet
+from imgui_bundle import imgui
+
+from weather_ecs.editor import panels, theme
+from weather_ecs.editor.document import Document
+from weather_ecs.editor.gui import Gui
+from weather_ecs.editor.layout import Box, boxes, part_of, workspace_of
+from weather_ecs.editor.panels import Entry
+from weather_ecs.editor.shared import Panel, Shared
+
+TITLE = "Weather editor"
+SHORTEST = 1.0 / 120.0  # s between frames where the display does not set the pace
+SMALLEST = (640, 400)
+_FIXED = (
+    imgui.WindowFlags_.no_move
+    | imgui.WindowFlags_.no_resize
+    | imgui.WindowFlags_.no_collapse
+    | imgui.WindowFlags_.no_title_bar
+    | imgui.WindowFlags_.no_saved_settings
+    | imgui.WindowFlags_.no_bring_to_front_on_focus
+)
+
+
+class EditorWindow(pyglet.window.Window):
+    """The editor in a window."""
+
+    def __init__(self, path: str | os.PathLike[str] | None, size: tuple[int, int]) -> None:
+        super().__init__(
+            *size, caption=TITLE, resizable=True, vsync=True, visible=False, file_drops=True
+        )
+        self.set_minimum_size(*SMALLEST)
+        self.document = Document()
+        self.shared = Shared(moderngl.get_context())
+        self.gui = Gui(self)
+        self.entries: list[tuple[Entry, Panel]] = []
+        for entry in panels.PANELS:
+            self.entries.append((entry, panels.make(entry, self.shared)))
+        self._last = time.perf_counter()
+        self._ready = True
+        self._caption = ""
+        self.set_visible(True)
+
+    def play(self) -> None:
+        """Run until the window is closed."""
+        pyglet.clock.schedule_interval(self.frame, SHORTEST)
+        pyglet.app.run(interval=None)
+
+    def shut(self) -> None:
+        """Give everything back; a second time does nothing."""
+        pyglet.clock.unschedule(self.frame)
+        if not self._ready:
+            return
+        self._ready = False
+        self.switch_to()
+        for _, panel in self.entries:
+            close = getattr(panel, "close", None)
+            if close is not None:
+                close()
+        self.gui.close()
+        super().close()
+
+    # One frame
+
+    def frame(self, _dt: float = 0.0) -> None:
+        """Everything, once; `draw` of pyglet's calls `on_draw`."""
+        if self._ready:
+            self.draw(_dt)
+
+    def on_draw(self) -> None:
+        if not self._ready:
+            return
+        now = time.perf_counter()
+        dt, self._last = now - self._last, now
+        width, height = self.get_framebuffer_size()
+        self.shared.pass_time(dt)
+        self.shared.selection.clamp(self.document)
+        self._show_name()
+        self.gui.begin(dt)
+        for entry, panel in self.entries:
+            update = getattr(panel, "update", None)
+            if update is not None and workspace_of(entry.place) == self.shared.workspace:
+                update(self.document, self.shared)
+        self._lay_out()
+        screen = self.shared.gl.detect_framebuffer(0)
+        screen.use()
+        if width > 0 and height > 0:
+            screen.viewport = (0, 0, width, height)
+            screen.clear(*theme.BACK)
+        self.gui.end(seen=width > 0 and height > 0)
+
+    def _show_name(self) -> None:
+        caption = f"{'• ' if self.document.dirty else ''}{self.document.name} - {TITLE}"
+        if caption != self._caption:
+            self._caption = caption
+            self.set_caption(caption)
+
+    def _lay_out(self) -> None:
+        size = imgui.get_io().display_size
+        here = [
+            (entry, panel)
+            for entry, panel in self.entries
+            if workspace_of(entry.place) == self.shared.workspace
+        ]
+        below = any(part_of(entry.place) == "below" for entry, _ in here)
+        parts = boxes(size.x, size.y, imgui.get_frame_height() + 8.0, below=below)
+        for name, box in parts.items():
+            mine = [(entry, panel) for entry, panel in here if part_of(entry.place) == name]
+            if name == "status":
+                self._draw_status(box)
+            elif mine and mine[0][0].share < 1.0:
+                self._draw_stacked(box, mine)
+            elif mine:
+                self._draw_tabs(box, name, [panel for _, panel in mine])
+
+    def _draw_stacked(self, box: Box, mine: list[tuple[Entry, Panel]]) -> None:
+        y = box.y
+        for entry, panel in mine:
+            high = box.height * entry.share
+            part = Box(box.x, y, box.width, max(high - 4.0, 1.0))
+            with _Window(f"{entry.place.value} {panel.title}", part) as window:
+                if window:
+                    imgui.separator_text(panel.title)
+                    panel.draw(self.document, self.shared)
+            y += high
+
+    def _draw_tabs(self, box: Box, name: str, mine: list[Panel]) -> None:
+        with _Window(f"{self.shared.workspace} {name}", box) as window:
+            if not window:
+                return
+            if len(mine) == 1:
+                mine[0].draw(self.document, self.shared)
+            elif imgui.begin_tab_bar("panels"):
+                for panel in mine:
+                    if imgui.begin_tab_item(panel.title)[0]:
+                        panel.draw(self.document, self.shared)
+                        imgui.end_tab_item()
+                imgui.end_tab_bar()
+
+    def _draw_status(self, box: Box) -> None:
+        with _Window("status", box) as window:
+            if window:
+                problem = self.document.problem
+                if problem:
+                    imgui.text_colored(theme.vec4(theme.BAD), problem)
+                elif self.shared.note:
+                    color = theme.BAD if self.shared.note_bad else theme.TEXT
+                    imgui.text_colored(theme.vec4(color), self.shared.note)
+
+    def on_close(self) -> None:
+        self.shut()
+
+
+class _Window:
+    """A window of imgui that stands where it is told to."""
+
+    def __init__(self, name: str, box: Box, flags: int = 0) -> None:
+        self._name, self._box, self._flags = name, box, flags
+
+    def __enter__(self) -> bool:
+        imgui.set_next_window_pos(imgui.ImVec2(self._box.x, self._box.y))
+        imgui.set_next_window_size(imgui.ImVec2(self._box.width, self._box.height))
+        return bool(imgui.begin(self._name, None, _FIXED | self._flags)[0])
+
+    def __exit__(self, *_rest: Any) -> None:
+        imgui.end()
+
+
+def run(path: str | os.PathLike[str] | None, size: tuple[int, int]) -> None:
+    """Open the editor, with a file if there is one, and run it until it is closed."""
+    window = EditorWindow(None if path is None else Path(path), size)
+    try:
+        window.play()
+    finally:
+        window.shut()
