@@ -11,7 +11,7 @@ import shutil
 import tomllib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -27,26 +27,14 @@ from weather_ecs.components import (
 )
 from weather_ecs.components._base import Component
 from weather_ecs.errors import InvalidValueError, WeatherFileError
+from weather_ecs.file_content import CLOUD_MODELS as CLOUD_MODELS
+from weather_ecs.file_content import CloudFile as CloudFile
+from weather_ecs.file_content import check_content as check_content
 from weather_ecs.physics.reproduction import image_indices
 
 VERSION = 1
 LARGEST = 2 * 1024 * 1024  # bytes of a file
 LONGEST_LINE = 2000  # characters; bounds what reading takes, however a file is made
-
-# Models that the package brings: the ten genera from the highest to the lowest, and fractostratus.
-CLOUD_MODELS = (
-    "cirrus",
-    "cirrostratus",
-    "cirrocumulus",
-    "altostratus",
-    "altocumulus",
-    "nimbostratus",
-    "stratocumulus",
-    "stratus",
-    "cumulus",
-    "cumulonimbus",
-    "fractostratus",
-)
 
 C = TypeVar("C", bound=Component)
 
@@ -59,16 +47,6 @@ _INSIDE: dict[tuple[type[Component], str], type[Component]] = {
     (CloudSeed, "roots"): CloudRoot,
     (SkyLayer, "skies"): Sky,
 }
-
-
-@dataclass(frozen=True, slots=True)
-class CloudFile:
-    """What a file holds. Layers and clouds name models of the file or of the package."""
-
-    models: tuple[CloudModel, ...] = ()
-    clouds: tuple[Cloud, ...] = ()
-    layers: tuple[SkyLayer, ...] = ()
-    climate: Climate | None = None
 
 
 class _BadError(Exception):
