@@ -14,7 +14,7 @@ from tests.rain_frames import area, camera, frame, quality
 from weather_ecs.frame import VeilData, ViewData
 from weather_ecs.gpu import veil_pass
 from weather_ecs.gpu.renderer import Renderer
-from weather_ecs.gpu.veil_list import MOST, important, rays, rectangle
+from weather_ecs.gpu.veil_list import MOST, important, nearest, rays, rectangle
 from weather_ecs.physics.camera import Camera
 from weather_ecs.systems.rain_view import RainView
 
@@ -97,6 +97,27 @@ def test_the_sheet_is_not_seen(
     assert off.max() <= 16  # a pixel here and there, where something near meets what is far off
 
 
+@pytest.mark.parametrize("away", [0.0, 25.0, 160.0])
+def test_small_areas_are_drawn_where_the_scene_is_behind_them(
+    picture: Picture, away: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each for itself, and to the pixel as they are drawn together."""
+    at = camera((0.0, 1.7, 60.0 + away), NORTH, 0.12)
+    showers = (
+        area(0, (0.0, 0.0), (70.0, 45.0), 20.0, heading=0.3, soft_edge=12.0, ceiling=62.0),
+        area(1, (40.0, -400.0), (85.0, 48.0), 9.0, heading=1.3, soft_edge=30.0, ceiling=80.0),
+    )
+    view = RainView().view(frame(*showers), at, 0, quality(containers=0))
+    assert len(view.veils) == 2
+    each = picture.draw(at, view)
+    monkeypatch.setattr(veil_pass, "LARGE", 10_000)
+    together = picture.draw(at, view)
+    bare = picture.draw(at, replace(view, veils=()))
+    assert np.abs(together - bare).max() > 20
+    # Light of two areas: blended here, added up there.
+    assert np.abs(each - together).max() <= 3
+
+
 def test_without_veils_that_matter_nothing_is_drawn(picture: Picture) -> None:
     at, view = look(False)
     faint = tuple(replace(veil, extinction=1e-7) for veil in view.veils)
@@ -121,7 +142,7 @@ def test_the_most_important_are_drawn(picture: Picture) -> None:
 def test_rays_and_rectangle_hold_every_pixel_with_rain(ctx: moderngl.Context) -> None:
     """A way from the camera to any place of a veil lies in the rectangle."""
     rng = np.random.default_rng(8)
-    cut = 0
+    cut = behind = 0
     for _ in range(200):
         x, z = rng.uniform(-3000.0, 3000.0, 2)
         at = camera(
@@ -150,4 +171,11 @@ def test_rays_and_rectangle_hold_every_pixel_with_rain(ctx: moderngl.Context) ->
         found = base + px[:, None] * gain_x + py[:, None] * gain_y
         wanted = (places[:3].T - np.array(at.position))[ahead][shown] / depth[ahead][shown][:, None]
         assert found == pytest.approx(wanted, abs=1e-6)
+        for each in important(view, [veil]):
+            p = at.projection
+            stored = (-p[2, 2] * depth[ahead][shown] + p[2, 3]) / depth[ahead][shown]
+            first = nearest(view, each, (left, bottom, right, top))
+            assert (stored >= first - 1e-9).all()
+            behind += first > -1.0
     assert cut > 20
+    assert behind > 20

@@ -27,6 +27,7 @@ VEIL = UniformBlock(
     "Veil",
     ("veil_rays", "vec4", 3),  # the ray in the picture's middle, and what it gains to the edges
     ("veil_frame", "vec4"),  # the rectangle that is drawn, -1 to 1
+    ("veil_place", "vec4"),  # the depth it is drawn at, -1 to 1
     # World's (x, z) to the ellipse's axes, in shares of its radii.
     ("veil_turn", "vec4", TOGETHER),
     # In these from its centre to the camera; level of f of the full rate; slope of the diameters.
@@ -94,6 +95,20 @@ def rectangle(view: ViewData, seen: Sequence[Seen]) -> tuple[float, float, float
         return whole
     x, y = np.clip(x / depth, -1.0, 1.0), np.clip(y / depth, -1.0, 1.0)
     return float(x.min()), -1.0, float(x.max()), float(y.max())
+
+
+def nearest(view: ViewData, each: Seen, frame: tuple[float, float, float, float]) -> float:
+    """Depth, -1 to 1, before which there is nothing of a veil in this rectangle of the picture."""
+    if each.distance <= 0.0:
+        return -1.0
+    left, bottom, right, top = frame
+    across, up = np.array([left, left, right, right]), np.array([bottom, top, bottom, top])
+    middle, right_way, up_way = rays(view)
+    rim = middle + across[:, None] * right_way + up[:, None] * up_way
+    # Level metres for one of depth: convex over the picture, so greatest in a corner.
+    depth = each.distance / max(float(np.hypot(rim[:, 0], rim[:, 2]).max()), 1e-6)
+    p = view.projection
+    return float(np.clip((-p[2, 2] * depth + p[2, 3]) / depth, -1.0, 1.0))
 
 
 def fill(data: NDArray, view: ViewData, seen: Sequence[Seen]) -> None:

@@ -12,7 +12,16 @@ from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.shader_source import Define
-from weather_ecs.gpu.veil_list import TOGETHER, VEIL, Seen, fill, important, rays, rectangle
+from weather_ecs.gpu.veil_list import (
+    TOGETHER,
+    VEIL,
+    Seen,
+    fill,
+    important,
+    nearest,
+    rays,
+    rectangle,
+)
 from weather_ecs.gpu.veil_sheet import VeilSheet
 from weather_ecs.physics.front import SETTLED
 
@@ -27,10 +36,10 @@ MIX = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
 class VeilPass:
     """Draws the veils of a view over the scene whose depth it is given.
 
-    In large pictures by way of two coarse sheets: of what is before the empty sky, and of the
-    optical depth for a km before the scene, of which every pixel takes its own share. Of
-    small areas, which end among the things of the scene, it would be too little: before these they
-    are drawn pixel for pixel.
+    Wide ones in large pictures by way of two coarse sheets: of what is before the empty sky, and
+    of the optical depth for a km before the scene, of which every pixel takes its own share. Of
+    small areas, which end among the things of the scene, it would be too little: they are drawn
+    pixel for pixel, each where the scene is not nearer than all of it.
     """
 
     def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader) -> None:
@@ -63,34 +72,38 @@ class VeilPass:
         p = view.projection
         past = 1.0 + float(p[2, 2])
         far = abs(float(p[2, 3]) / past) if abs(past) > 1e-9 else 1e9
-        before = [each for each in seen if each.distance < BEYOND * far]
-        self._draw_sheet(view, seen, guard, None)
-        wide = [each for each in before if each.veil.shape[0] >= WIDE]
+        small, wide = halves(seen)
         if wide:
-            self._draw_sheet(view, wide, guard, depth)
-        small = [each for each in before if each.veil.shape[0] < WIDE]
+            self._draw_sheet(view, wide, guard, None)
+            before = [each for each in wide if each.distance < BEYOND * far]
+            if before:
+                self._draw_sheet(view, before, guard, depth)
         if small:
             depth.use(DEPTH_UNIT)
             self._ctx.enable(moderngl.DEPTH_TEST)
-            self._ctx.depth_func = ">"  # only where something has been drawn
-            self._draw(view, small)
-            self._ctx.depth_func = "<="
+            for each in sorted(small, key=lambda each: -each.distance):
+                self._draw_alone(view, each)
             self._ctx.disable(moderngl.DEPTH_TEST)
+
+    def _draw_alone(self, view: ViewData, each: Seen) -> None:
+        data = self._block.data
+        frame = rectangle(view, [each])
+        data["veil_frame"] = frame
+        data["veil_place"] = nearest(view, each, frame)
+        fill(data, view, [each])
+        self._block.upload()
+        self._render("veil.frag", ("ALONE", ("COUNT", 1), *look([each])))
 
     def _draw(self, view: ViewData, seen: Sequence[Seen], place: str = "") -> None:
         """Into what is bound. place: what the rays end at, if not each at the scene's own depth."""
         data = self._block.data
         for some in groups(seen):
             data["veil_frame"] = rectangle(view, some)
+            data["veil_place"] = 1.0
             fill(data, view, some)
             self._block.upload()
-            look = "CURTAIN" if any(each.veil.ragged or each.veil.top for each in some) else ""
-            dry = "" if some[0].veil.dry == SETTLED else "CHANGING"
-            names = tuple([name for name in (place, look, dry) if name])
-            defines: tuple[str | Define, ...] = (
-                ("COUNT", 1 if len(some) == 1 else TOGETHER), *names
-            )  # fmt: skip
-            self._render("veil.frag", defines)
+            count = ("COUNT", 1 if len(some) == 1 else TOGETHER)
+            self._render("veil.frag", (*((place,) if place else ()), count, *look(some)))
 
     def _render(self, fragment: str, defines: tuple[str | Define, ...] = ()) -> None:
         key = ProgramKey(vertex="veil.vert", fragment=fragment, defines=defines)
@@ -123,8 +136,9 @@ class VeilPass:
         guard.bind_framebuffer()
         guard.gl.glDepthMask(0)
         sheet.use(SHEET_UNIT)
-        ctx.enable(moderngl.DEPTH_TEST)  # the rectangle's depth is that of the empty sky
+        ctx.enable(moderngl.DEPTH_TEST)
         self._block.data["veil_frame"] = rectangle(view, seen)
+        self._block.data["veil_place"] = 1.0  # of the empty sky
         self._block.upload()
         if depth is None:
             ctx.depth_func = "=="
@@ -145,6 +159,21 @@ class VeilPass:
         for array in self._arrays.values():
             array.release()
         self._block.release()
+
+
+def halves(seen: Sequence[Seen]) -> tuple[list[Seen], list[Seen]]:
+    """Those that are drawn pixel for pixel, and those by way of the sheets."""
+    small = [each for each in seen if each.veil.shape[0] < WIDE]
+    return small, [each for each in seen if each.veil.shape[0] >= WIDE]
+
+
+def look(some: Sequence[Seen]) -> tuple[str, ...]:
+    """What the shader must know how to draw."""
+    curtain = any(each.veil.ragged or each.veil.top for each in some)
+    darker = any(each.veil.cloud for each in some)
+    changing = some[0].veil.dry != SETTLED
+    names = (curtain, "CURTAIN"), (darker, "DARKER"), (changing, "CHANGING")
+    return tuple([name for there, name in names if there])
 
 
 def groups(seen: Sequence[Seen]) -> Iterator[list[Seen]]:

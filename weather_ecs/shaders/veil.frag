@@ -2,17 +2,22 @@
 // the drops near the observer already show. With f an ellipse's implicit function along the ray, a
 // quadratic in t, the rain rate's share is (1 - f) / (1 - f_in), at most 1: its integral is closed.
 // physics/veil.py is the oracle. CHANGING: of rain that begins or ends. EMPTY: before nothing.
-// SCENE: for a texel that stands for several pixels of the scene.
+// SCENE: for a texel that stands for several pixels of the scene. ALONE: one area, whose vertices say
+// how it lies. DARKER: thick rain under a cloud is darker.
 #include <block:RainView>
 #include <block:Veil>
 #include "fog.glsl"
 #include "grain.glsl"
 #include "rain_front.glsl"
+#include "veil_axes.glsl"
 
 uniform sampler2D scene_depth;
 
 noperspective in vec3 vs_ray;
 noperspective in vec2 vs_place;
+#ifdef ALONE
+noperspective in vec4 vs_own;
+#endif
 out vec4 color;
 
 // Integral over [x0, x1] of max(h - x^2, 0), h2 = max(h, 0).
@@ -58,7 +63,7 @@ float rays_of_rain(float u)
     return 0.5 * wave(u * 0.83) + 0.35 * wave(u * 2.17 + 0.37) + 0.15 * wave(u * 5.71 + 0.71);
 }
 
-// Of one area: its light times its optical depth, and that. The index is a constant wherever this is
+// Of one area: its light times its optical depth (ALONE: its light), and that depth. The index is a constant wherever this is
 // called: a software driver gathers what a variable one asks for, at four times the cost.
 vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_t)
 {
@@ -76,11 +81,15 @@ vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_
 
     // f(t) = lowest + a (t - middle)^2. The ray's distance from the middle comes from the cross
     // product: as a difference it would drown where a thin area is far off.
-    vec4 turn = veil_turn[i];
-    vec2 own = vec2(dot(turn.xy, ray.xz), dot(turn.zw, ray.xz));
+#ifdef ALONE
+    vec4 lies = vs_own;
+#else
+    vec4 lies = on_axes(i, ray);
+#endif
+    vec2 own = lies.xy;
     float over_a = 1.0 / max(dot(own, own), 1e-12);
-    float middle = -dot(from.xy, own) * over_a;
-    float aside = from.x * own.y - from.y * own.x;
+    float middle = lies.z * over_a;
+    float aside = lies.w;
     float lowest = aside * aside * over_a;
     float outer = max((1.0 - lowest) * over_a, 0.0);
     float inner = max((from.z - lowest) * over_a, 0.0);
@@ -112,9 +121,16 @@ vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_
     // middle.
     float along = near + (far - near) / (2.0 + optical);
     vec4 tint = veil_tint[i];
-    vec3 own_light = tint.rgb * (1.0 - tint.a * optical / (1.0 + optical));
+    vec3 own_light = tint.rgb;
+#ifdef DARKER
+    own_light *= 1.0 - tint.a * optical / (1.0 + optical);
+#endif
     own_light = mix(fog_shown.rgb, own_light, fog_left((along + middle) * per_t));
+#ifdef ALONE
+    return vec4(own_light, optical);
+#else
     return vec4(own_light, 1.0) * optical;
+#endif
 }
 
 #ifdef SCENE
@@ -163,6 +179,11 @@ void main()
 #else
     float opacity = 1.0 - exp(-seen.a);
     if (opacity < 0.002) discard;
-    color = vec4(seen.rgb / seen.a + pixel_grain() / max(opacity, 0.05), opacity);
+#ifdef ALONE
+    vec3 own_light = seen.rgb;
+#else
+    vec3 own_light = seen.rgb / seen.a;
+#endif
+    color = vec4(own_light + pixel_grain() / max(opacity, 0.05), opacity);
 #endif
 }
