@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 
 import esper
+import numpy as np
 import pytest
 
 from weather_ecs import Weather
 from weather_ecs.components import Atmosphere, Climate, Fog, Sun
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.frame import FrameData, SkyLight
+from weather_ecs.physics.haze import THICKEST, Lit, haze_depth, haze_visibility, under_fog
+from weather_ecs.presets import WholeWeather
 
 
 def made(**fields: object) -> tuple[Weather, Atmosphere]:
@@ -64,7 +67,8 @@ def test_it_takes_the_place_of_the_sun_and_gives_it_back() -> None:
     weather, _air = made()
     game = Sun(color=(9.0, 9.0, 9.0))
     esper.create_entity(game)
-    noon = frame(weather).sky
+    noon = weather.light
+    assert noon is frame(weather).sky
     assert noon.sun_color[0] < 2.0
     assert noon.sun_direction[1] == pytest.approx(math.sin(math.radians(68.4)), abs=0.01)
     assert noon.sun_direction[2] > 0.3  # in the south
@@ -156,3 +160,70 @@ def test_bad_times_name_the_field() -> None:
     for bad in ("yesterday", "2025-06-21T25:00:00Z", math.nan, None, "1899-12-31", b"2025-01-01"):
         with pytest.raises(InvalidValueError, match=r"Atmosphere\.time"):
             Atmosphere(time=bad)  # type: ignore[arg-type]
+
+
+def test_a_whole_weathers_overcast_dims_and_greys() -> None:
+    weather, air = made(speed=0.0)
+    skies = []
+    for overcast in (0.0, 0.5, 1.0):
+        weather.change_to(WholeWeather("so", 0.0, overcast=overcast), 0.0)
+        skies.append(frame(weather).sky)
+    suns = [sum(sky.sun_color) for sky in skies]
+    assert suns[1] > 0.8 * suns[0] > 4.0 * suns[2]  # broken clouds leave the sky between them
+    blue = [sky.zenith_color[2] / sky.zenith_color[0] for sky in skies]
+    assert blue[0] > 2.0 > 1.3 > blue[2]
+    air.overcast = 0.0
+    assert frame(weather).sky.sun_color == skies[0].sun_color
+    weather.close()
+
+
+def test_a_whole_weathers_haze_whitens_the_horizon_and_sets_how_far_one_sees() -> None:
+    weather, _ = made(speed=0.0)
+    skies, seen = [], []
+    for haze in (0.1, 0.5, 1.0):
+        weather.change_to(WholeWeather("so", 0.0, haze=haze), 0.0)
+        skies.append(frame(weather).sky)
+        seen.append(weather.sample((0, 2, 0)).visibility)
+    pure = [max(sky.horizon_color) / min(sky.horizon_color) for sky in skies]
+    assert pure[0] > pure[1] > pure[2] and pure[2] - 1.0 < 0.7 * (pure[0] - 1.0)
+    assert sum(skies[2].sun_color) < 0.7 * sum(skies[0].sun_color)
+    assert seen == pytest.approx([50_000.0, haze_visibility(0.5), THICKEST])
+    weather.change_to(WholeWeather("so", 0.0, haze=0.5, visibility=800.0), 0.0)
+    assert weather.sample((0, 2, 0)).visibility == pytest.approx(800.0)
+    assert haze_depth(0.0) == haze_depth(0.1) == 0.0
+    weather.close()
+
+
+def test_a_transition_makes_the_light_anew_in_small_steps() -> None:
+    weather, _ = made(speed=0.0)
+    weather.change_to("clear")
+    weather.change_to("steady_rain", 20.0)
+    levels = []
+    for _ in range(60):
+        esper.process(0.4)
+        levels.append(sum(frame(weather).sky.sun_color))
+    steps = np.abs(np.diff(levels))
+    assert steps.max() < 0.12 < 1.5 < levels[0] - levels[-1]
+    weather.close()
+
+
+def test_fog_takes_the_suns_light_and_hands_it_on_from_all_round() -> None:
+    weather, _ = made(speed=0.0)
+    clear = frame(weather).sky
+    fog = Fog(50_000.0)
+    esper.create_entity(fog)
+    assert frame(weather).sky.sun_color == clear.sun_color
+    level = [weather.sample((0, 2, 0)).light]
+    for visibility in (2000.0, 250.0, 50.0):
+        fog.visibility = visibility
+        level.append(weather.sample((0, 2, 0)).light)
+    dull = frame(weather).sky
+    assert max(dull.sun_color) < 1e-3
+    assert level == sorted(level, reverse=True) and level[2] > 0.6 * level[0]
+    assert max(dull.horizon_color) / min(dull.horizon_color) < 1.25
+    weather.close()
+    light = Lit(np.ones(3), np.full(3, 0.2), np.full(3, 0.6))
+    for depth in (1e-9, 0.5, 5.0, 1e9):
+        out = under_fog(light, 0.5, depth)
+        total = out.sun * 0.5 + 0.5 * (out.zenith + out.horizon)
+        assert np.allclose(total, 0.9 / (1.0 + 0.075 * depth), rtol=1e-6)

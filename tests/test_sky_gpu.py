@@ -20,6 +20,7 @@ from weather_ecs.errors import ContextError, InvalidValueError
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.physics import sky_map
+from weather_ecs.presets import WholeWeather
 
 SIZE = (480, 270)
 TIMES = ("12:00", "19:30", "20:15", "23:00")
@@ -102,10 +103,15 @@ def test_map_places_and_directions_are_each_others_inverse() -> None:
     assert np.allclose(sky_map.map_direction(places), ways, atol=1e-6)
 
 
-@pytest.mark.parametrize("hour", TIMES)
-def test_the_drawn_sky_is_the_oracles(stage: Stage, hour: str) -> None:
-    """Map, grid and encoding against NumPy, away from the discs."""
+@pytest.mark.parametrize(("hour", "haze"), [*((hour, 0.0) for hour in TIMES), ("17:00", 0.6)])
+def test_the_drawn_sky_is_the_oracles(stage: Stage, hour: str, haze: float) -> None:
+    """Map, grid and encoding against NumPy, away from the discs; without haze and with."""
     stage.air.time = f"2025-06-21T{hour}:00Z"
+    if haze:
+        stage.weather.change_to(WholeWeather("hazy", 0.0, haze=haze))
+        whole = stage.weather.whole
+        assert whole is not None
+        esper.component_for_entity(whole.entities["fog"], Fog).depth = 0.0
     stage.air.stars = 0.0
     picture = stage.picture(0.4, 0.5, 70.0)
     ways = stage.directions()

@@ -17,7 +17,7 @@ from weather_ecs.cloud_presets import find_model
 from weather_ecs.components import Cloud, Observer, Occluder, RainGauge, RippleSurface
 from weather_ecs.components._base import FAR, integer, number, vector
 from weather_ecs.errors import ClosedError, ContextError, InvalidValueError, WeatherError
-from weather_ecs.frame import FrameData
+from weather_ecs.frame import FrameData, SkyLight
 from weather_ecs.observer_keys import ObserverKeys
 from weather_ecs.physics.camera import Camera, camera_from
 from weather_ecs.physics.footprint import SlopeFollower, fall_slope, fall_speed_over, landing_wind
@@ -119,6 +119,12 @@ class Weather:
         """The weather at a point (x, y, z) in metres. Raises InvalidValueError for no point."""
         x, y, z = _check_position("position", position)
         return self._sample_field().at(x, y, z)
+
+    @property
+    def light(self) -> SkyLight:
+        """Light of sun, sky and ground now, linear RGB: of the `Atmosphere`, or else the `Sun`."""
+        self._check_open()
+        return self._frame().sky
 
     @property
     def stats(self) -> Stats:

@@ -58,6 +58,8 @@ class AtmosphereData:
     moon_scale: NDArray
     overcast_light: NDArray  # (3,), at the zenith; a third of it at the horizon
     night_light: NDArray  # (3,), at the zenith
+    haze_light: NDArray  # (3,), of haze that nothing is seen through
+    haze_depth: float  # optical, straight up
     ground_light: NDArray  # (3,)
     shift: float  # 0 to 1, of the colours towards those of the night
     sun_disc: NDArray  # (3,)

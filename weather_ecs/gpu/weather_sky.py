@@ -27,6 +27,7 @@ SKY_LIGHTS = UniformBlock(
     ("sky_moon", "vec4"),
     ("sky_overcast", "vec4"),  # at the zenith
     ("sky_night", "vec4"),
+    ("sky_haze", "vec4"),  # light of haze; its optical depth straight up
     ("sky_dark", "vec4"),  # colour that grey takes in the dark; share of it
 )
 BAKE = ProgramKey(vertex="fullscreen.vert", fragment="sky_map.frag")
@@ -82,6 +83,7 @@ class WeatherSky:
         lights["sky_moon"] = (*data.moon_direction, 0.0)
         lights["sky_overcast"][:3] = data.overcast_light
         lights["sky_night"][:3] = data.night_light
+        lights["sky_haze"] = (*data.haze_light, data.haze_depth)
         dark = BLUE_SHIFT / float(BLUE_SHIFT @ LUMINANCE)
         lights["sky_dark"] = (*dark, data.shift)
         self._lights.upload()

@@ -25,6 +25,7 @@ from weather_ecs.physics.atmosphere import (
     transmittance,
 )
 from weather_ecs.physics.checks import FloatArray
+from weather_ecs.physics.haze import haze_left, whitened
 from weather_ecs.physics.illuminance import (
     moon_illuminance,
     moon_phase_factor,
@@ -42,6 +43,7 @@ NIGHT_LUX = 6.5e-4  # of airglow and stars on level ground, sun and moon down (J
 NIGHT_COLOR = np.array([0.80, 1.02, 1.35])
 BLUE_SHIFT = np.array([0.62, 1.00, 2.12])  # what the eye's rods make of grey (Jensen et al. 2000)
 GROUND = np.array([0.16, 0.16, 0.136])  # share of the light that the ground sends back
+HIGH_SKY, LOW_SKY = 0.85, 0.07  # sines of elevation that zenith and horizon are means about
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _KNOTS = np.concatenate(
     [np.arange(-7.0, 10.5), np.arange(12.0, 21.0, 2.0), np.arange(25.0, 91.0, 5.0)]
@@ -66,6 +68,7 @@ class Scene(NamedTuple):
     moon_scale: FloatArray  # (3,), on the moon's
     overcast: FloatArray  # (3,), at the zenith; a third of it at the horizon (CIE)
     night: FloatArray  # (3,), at the zenith
+    haze_light: FloatArray  # (3,), of haze so thick that nothing is seen through it
     shift: float  # 0 to 1, of the colours towards those of the night
     exposure: float  # on light as a meter has it
     sun_color: FloatArray  # (3,)
@@ -153,10 +156,14 @@ def scene(
     phase_angle: float,
     *,
     overcast: float = 0.0,
+    haze: float = 0.0,
     exposure: float = 1.0,
     adaptation: float = 1.0,
 ) -> Scene:
-    """Put the lights of a sky together; sines of the true altitudes, phase angle in degrees."""
+    """Put the lights of a sky together; sines of the true altitudes, phase angle in degrees.
+
+    haze: optical depth straight up, see `physics.haze`.
+    """
     white, reference = _scale()
     moonlight = MOON * moon_phase_factor(phase_angle)
     # Kasten and Czeplak 1980: what a covered sky lets through in all; the sun finds fewer gaps.
@@ -178,6 +185,12 @@ def scene(
     zenith = sun_scale * sun.zenith + moon_scale * moon.zenith + 0.9 * overhead + night
     horizon = sun_scale * sun.horizon + moon_scale * moon.horizon + 0.45 * overhead + 1.6 * night
     sun_color, moon_color = (shown * direct * white * part for part in (suns, moons))
+    white_light = whitened(horizon)
+    if haze > 0.0:
+        sun_color = sun_color * haze_left(haze, max(sun_sine, 0.0))
+        moon_color = moon_color * haze_left(haze, max(moon_sine, 0.0))
+        zenith = white_light + haze_left(haze, HIGH_SKY) * (zenith - white_light)
+        horizon = white_light + haze_left(haze, LOW_SKY) * (horizon - white_light)
     zenith, horizon = shifted(zenith, shift), shifted(horizon, shift)
     moon_color = shifted(moon_color, shift)
     lit = sun_color * max(sun_sine, 0.0) + moon_color * max(moon_sine, 0.0)
@@ -187,6 +200,7 @@ def scene(
         moon_scale,
         overhead,
         night,
+        white_light,
         shift,
         shown,
         sun_color,

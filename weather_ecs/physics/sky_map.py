@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from weather_ecs.physics.atmosphere import haze_phase
 from weather_ecs.physics.checks import FloatArray
 from weather_ecs.physics.daylight import shifted
+from weather_ecs.physics.haze import haze_left
 
 SIZE = 128  # of the map
 SHOULDER = 0.4  # of what a picture shows, from where on it is bent below 1
@@ -44,6 +45,10 @@ class Lights(Protocol):
     @property
     def night_light(self) -> NDArray: ...
     @property
+    def haze_light(self) -> NDArray: ...
+    @property
+    def haze_depth(self) -> float: ...
+    @property
     def ground_light(self) -> NDArray: ...
     @property
     def shift(self) -> float: ...
@@ -60,6 +65,8 @@ def radiance(lights: Lights, directions: FloatArray) -> FloatArray:
     )
     light += lights.overcast_light * ((1.0 + 2.0 * up) / 3.0)[..., None]
     light += lights.night_light * (1.0 + 0.8 * (1.0 - up) ** 3)[..., None]
+    left = haze_left(lights.haze_depth, up)[..., None]
+    light = lights.haze_light + left * (light - lights.haze_light)
     return shifted(light, lights.shift)
 
 

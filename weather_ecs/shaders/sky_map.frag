@@ -9,6 +9,7 @@ const float ROWS = 32.0;
 const float COLUMNS = 32.0;
 const float SIZE = 128.0;
 const float G = 0.76;
+const float RIM = 0.01771786;  // physics.haze.RIM
 
 vec3 table(float part, vec2 place)
 {
@@ -43,6 +44,7 @@ void main()
     light += sky_overcast.rgb * ((1.0 + 2.0 * up) / 3.0);
     float low = 1.0 - up;
     light += sky_night.rgb * (1.0 + 0.8 * low * low * low);
+    light = mix(sky_haze.rgb, light, exp(-sky_haze.w / (up + RIM)));
     vec3 dark = dot(light, vec3(0.2126, 0.7152, 0.0722)) * sky_dark.rgb;
     color = vec4(mix(light, dark, sky_dark.w), 1.0);
 }

@@ -9,18 +9,21 @@ import esper
 import numpy as np
 
 from weather_ecs.clock import STEP
-from weather_ecs.components import Atmosphere, Cloud
+from weather_ecs.components import Atmosphere, Cloud, Fog
 from weather_ecs.components._base import set_unchecked
 from weather_ecs.frame import AtmosphereData, SkyLight
 from weather_ecs.physics import astronomy
 from weather_ecs.physics.daylight import LUMINANCE, NIGHT_LUX, SUN_LUX, Scene, clear_sky, scene
+from weather_ecs.physics.haze import Lit, haze_depth, haze_left, under_fog
 from weather_ecs.physics.illuminance import moon_phase_factor
+from weather_ecs.physics.optics import CLEAR, air_extinction
 from weather_ecs.systems.climate import oldest_state
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.state import WeatherState
 
 FIRST, LAST = astronomy.FIRST, astronomy.LAST - 1.0
 QUANTUM = 10.0  # s of the sky for which its light stands still: the sun moves by 0.04 degrees
+STEPS = 256.0  # of what covers the sky, that nobody sees; each makes the light anew
 HALO = "cirrostratus"  # the model whose clouds show one
 
 
@@ -51,6 +54,8 @@ class Daylight:
 
     def __init__(self) -> None:
         self._key: tuple[object, ...] = ()
+        self._heaven: _Heaven
+        self._fog = 0.0
         self.light: SkyLight | None = None
         self.data: AtmosphereData | None = None
 
@@ -68,24 +73,48 @@ class Daylight:
     def _update(self, air: Atmosphere, state: WeatherState) -> None:
         time = _moved(air, state.clock.remainder)
         time = min(max(math.floor(time / QUANTUM + 0.5) * QUANTUM, FIRST), LAST)
-        overcast = air.overcast
-        if overcast is None:
-            overcast = covered(oldest_state(state) or 0.0)
+        overcast, haze = _cover(air, state)
         halo = air.halo if air.halo is not None or not state.drawn else _cirrostratus(state)
         look = (air.latitude, air.longitude, air.turbidity, air.exposure, air.adaptation)
         shown = (air.draw, air.stars, air.disc, air.rainbow, halo, state.drawn)
-        key = (time, overcast, look, shown)
-        if key == self._key:
+        key, fog = (time, overcast, haze, look, shown), _fog_depth(state)
+        if key == self._key and fog == self._fog:
             return
-        self._key = key
-        heaven = _heaven(air, time, overcast)
-        self.light = _light(heaven)
-        self.data = _data(air, time, overcast, halo or 0.0, heaven) if state.drawn else None
+        if key != self._key:
+            self._key = key
+            self._heaven = heaven = _heaven(air, time, overcast, haze)
+            data = _data(air, time, overcast, haze, halo or 0.0, heaven) if state.drawn else None
+            self.data = data
+        self._fog = fog
+        self.light = _light(self._heaven, fog)
 
 
 def covered(state: float) -> float:
     """Share of the sky that its haze covers in a state of the climate, besides its clouds."""
     return 0.85 * state**1.5
+
+
+def covered_by(overcast: float) -> float:
+    """The same where so much of the sky is cloud: broken clouds leave the sky between them."""
+    return 0.85 * overcast**3
+
+
+def _cover(air: Atmosphere, state: WeatherState) -> tuple[float, float]:
+    """What covers the sky besides the clouds there are, 0 to 1, and its haze's depth."""
+    course = state.course
+    whole = None if course is None else course.at(state.clock.steps)
+    haze = 0.0 if whole is None else haze_depth(round(whole.haze * STEPS) / STEPS)
+    if air.overcast is not None:
+        return air.overcast, haze
+    share = covered(oldest_state(state) or 0.0) if whole is None else covered_by(whole.overcast)
+    return round(share * STEPS) / STEPS, haze
+
+
+def _fog_depth(state: WeatherState) -> float:
+    """Optical depth straight up of the oldest fog."""
+    for _, fog in alive(Fog, state.uids):
+        return max(air_extinction(fog.visibility) - CLEAR, 0.0) * fog.depth
+    return 0.0
 
 
 def _cirrostratus(state: WeatherState) -> float:
@@ -101,7 +130,7 @@ def _cirrostratus(state: WeatherState) -> float:
     return min(5.0 * max(shares), 1.0)
 
 
-def _heaven(air: Atmosphere, time: float, overcast: float) -> _Heaven:
+def _heaven(air: Atmosphere, time: float, overcast: float, haze: float) -> _Heaven:
     sun = astronomy.sun_direction(time, air.latitude, air.longitude)
     moon = astronomy.moon_at(time, air.latitude, air.longitude)
     light = scene(
@@ -111,6 +140,7 @@ def _heaven(air: Atmosphere, time: float, overcast: float) -> _Heaven:
         moon.direction[1],
         moon.phase_angle,
         overcast=overcast,
+        haze=haze,
         exposure=air.exposure,
         adaptation=air.adaptation,
     )
@@ -123,17 +153,16 @@ def _altitude(direction: astronomy.Vector) -> float:
     return min(altitude + astronomy.refraction(altitude), 90.0)
 
 
-def _light(heaven: _Heaven) -> SkyLight:
-    """The brighter of sun and moon is the light that casts shadows."""
+def _light(heaven: _Heaven, fog: float) -> SkyLight:
+    """The brighter of sun and moon is the light that casts shadows; `fog`: depth straight up."""
     light = heaven.light
     day = float(light.sun_color @ LUMINANCE) >= float(light.moon_color @ LUMINANCE)
     direction, color = heaven.sun, light.sun_color
     if not day:
         direction, color = heaven.moon.direction, light.moon_color
-    return SkyLight(
-        astronomy.refracted(direction),
-        *(_rgb(c) for c in (color, light.zenith, light.horizon, light.ground)),
-    )
+    towards = astronomy.refracted(direction)
+    lit = under_fog(Lit(color, light.zenith, light.horizon), towards[1], fog)
+    return SkyLight(towards, *(_rgb(c) for c in (*lit, light.ground)))
 
 
 def _rgb(color: np.ndarray) -> tuple[float, float, float]:
@@ -142,7 +171,7 @@ def _rgb(color: np.ndarray) -> tuple[float, float, float]:
 
 
 def _data(
-    air: Atmosphere, time: float, overcast: float, halo: float, heaven: _Heaven
+    air: Atmosphere, time: float, overcast: float, haze: float, halo: float, heaven: _Heaven
 ) -> AtmosphereData:
     sun, moon = heaven.sun, heaven.moon
     light = heaven.light
@@ -166,17 +195,25 @@ def _data(
         moon_scale=light.moon_scale,
         overcast_light=light.overcast,
         night_light=light.night,
+        haze_light=light.haze_light,
+        haze_depth=haze,
         ground_light=light.ground,
         shift=light.shift,
-        sun_disc=_disc(suns.sun, 30.0 * min(light.exposure, 30.0), overcast),
-        moon_disc=_disc(moons.sun, 0.36 * min(max(light.exposure, 0.3), 4.0), overcast),
-        faintest=faintest - 6.0 * overcast,
+        sun_disc=_disc(suns.sun, 30.0 * min(light.exposure, 30.0), overcast) * _seen(sun, haze),
+        moon_disc=_disc(moons.sun, 0.36 * min(max(light.exposure, 0.3), 4.0), overcast)
+        * _seen(moon.direction, haze),
+        faintest=faintest - 6.0 * overcast - 2.0 * haze,
         stars=air.stars,
         disc=air.disc,
         halo=halo * (1.0 - overcast),
         rainbow=air.rainbow * (1.0 - overcast),
         draw=air.draw,
     )
+
+
+def _seen(direction: astronomy.Vector, haze: float) -> np.ndarray:
+    """Share of a disc's light that haze of such a depth lets through."""
+    return haze_left(haze, max(direction[1], 0.0))
 
 
 def _disc(through: np.ndarray, brightness: float, overcast: float) -> np.ndarray:

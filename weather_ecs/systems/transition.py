@@ -10,6 +10,7 @@ import esper
 from weather_ecs.clock import STEP
 from weather_ecs.components import Air, Climate, Fog, Lightning, RainArea, Sky, SkyLayer, Wind
 from weather_ecs.components._base import Component, set_unchecked
+from weather_ecs.physics.haze import haze_visibility
 from weather_ecs.systems.cloud_mix import mix_at
 from weather_ecs.systems.clouds import known_of
 from weather_ecs.systems.course import CLEARED, FINISHED, UNDER_WAY, Conditions, Course, LayerWay
@@ -138,7 +139,7 @@ def _fields(what: str, now: Conditions) -> tuple[tuple[str, object], ...]:
     if what == "air":
         return ("temperature", now.temperature), ("humidity", now.humidity)
     if what == "fog":
-        return (("visibility", now.visibility),)
+        return (("visibility", min(now.visibility, haze_visibility(now.haze))),)
     if what == "lightning":
         return (("rate", now.lightning),)
     if what == "rain":
