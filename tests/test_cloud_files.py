@@ -20,6 +20,7 @@ from weather_ecs import (
     load_clouds,
     save_cloud_model,
     save_clouds,
+    toml_scan,
     toml_text,
 )
 from weather_ecs.cloud_files import LARGEST
@@ -190,7 +191,7 @@ BAD = [
     ('models = ["flat", ', 'models = [{name = "a"}, ', 36, "layers[0].skies[1].models", "names"),
     ("duration = 120.5", "duration = 0", 40, "climate.duration", "> 0"),
     ("[climate]", "[[climate]]", None, "climate", "a table"),
-    ("version = 1", "version = 2", 1, "version", "1"),
+    ("version = 1", "version = 3", 1, "version", "1 to 2"),
     ("version = 1", "version = 1.0", 1, "version", "1"),
     ("version = 1", "version = true", 1, "version", "1"),
     ("version = 1", "", None, "version", "1"),
@@ -362,7 +363,7 @@ def test_lines_are_those_of_the_keys():
         (("e", 0, "g", 0), 9),
         (("z",), None),
     ]:
-        assert toml_text.line_of(text, path) == line
+        assert toml_scan.line_of(text, path) == line
 
 
 def test_numbers_of_any_kind_are_kept(tmp_path):

@@ -91,7 +91,7 @@ def test_a_model_takes_the_place_of_one_of_its_name(tmp_path):
     assert drawn(weather).cloud_shapes[0].radius > 2.0 * before
 
 
-@pytest.mark.parametrize("text", ["", "version = 2", "version = 1\n[[layers]]\nbase = 'x'", "\0"])
+@pytest.mark.parametrize("text", ["", "version = 3", "version = 1\n[[layers]]\nbase = 'x'", "\0"])
 def test_a_bad_file_changes_nothing(tmp_path, text):
     weather = Weather()
     weather.add(presets.sky("fair"))

@@ -27,7 +27,7 @@ from weather_ecs.components._base import Component
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.reproduction import image_indices
 from weather_ecs.quality import QUALITIES
-from weather_ecs.toml_text import Path
+from weather_ecs.toml_scan import Path
 
 # Models that the package brings: the ten genera from the highest to the lowest, and fractostratus.
 CLOUD_MODELS = (

@@ -1,95 +1,88 @@
-"""TOML text: a writer for plain values, and the lines on which keys stand.
-
-Python reads TOML (`tomllib`) but neither writes it nor says where in the text a value was.
-"""
+"""TOML text: a writer for plain values. Python reads TOML (`tomllib`) but does not write it."""
 
 from __future__ import annotations
 
 import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from datetime import date, datetime, time
 from typing import Any
 
-Path = tuple[str | int, ...]  # ("models", 0, "seeds", 2, "width")
+WIDTH = 100  # characters; a list that is longer has a line for each item
 
-_HEADER = re.compile(r"\s*(\[\[?)\s*([\w-]+(?:\s*\.\s*[\w-]+)*)\s*\]")
-_KEY = re.compile(r"\s*([\w-]+)\s*=")
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def dumps(document: Mapping[str, Any], comment: str = "") -> str:
     """Text that `tomllib` reads back as the document, floats to the bit.
 
-    Values are numbers, bools, strings and lists of them, mappings (tables) and lists of mappings
-    (arrays of tables).
+    Values are numbers, bools, strings, dates and times, lists of them, mappings (tables) and lists
+    of mappings (arrays of tables). Raises TypeError for others.
     """
     lines = [f"# {line}" for line in comment.splitlines()]
-    lines += _table(document, ())
+    lines += table_lines(document, ())
     return "\n".join(lines).strip("\n") + "\n"
 
 
-def _table(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterable[str]:
-    inner = {key: value for key, value in table.items() if _is_table(value)}
+def table_lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterable[str]:
+    """Lines of a table's entries and of the tables in it; `path` are the names of its own."""
+    inner = {key: value for key, value in table.items() if is_table(value)}
     for key, value in table.items():
         if key not in inner:
-            yield f"{key} = {_value(value)}"
+            yield entry(key, value)
     for key, value in inner.items():
-        name = ".".join((*path, key))
+        below = (*path, key)
         if isinstance(value, Mapping):
-            yield from ("", f"[{name}]", *_table(value, (*path, key)))
+            yield from ("", header(below), *table_lines(value, below))
         else:
             for item in value:
-                yield from ("", f"[[{name}]]", *_table(item, (*path, key)))
+                yield from ("", header(below, repeated=True), *table_lines(item, below))
 
 
-def _is_table(value: Any) -> bool:
+def header(path: Sequence[str], *, repeated: bool = False) -> str:
+    """The line above a table, or above one of an array of tables."""
+    name = ".".join(map(key_text, path))
+    return f"[[{name}]]" if repeated else f"[{name}]"
+
+
+def entry(key: str, value: Any) -> str:
+    """A key and its value; a long list takes several lines."""
+    return f"{key_text(key)} = {value_text(value, len(key) + 3)}"
+
+
+def is_table(value: Any) -> bool:
+    """Whether a value is written under a header of its own."""
     if isinstance(value, (list, tuple)):
-        return bool(value) and isinstance(value[0], Mapping)
+        return bool(value) and all(isinstance(item, Mapping) for item in value)
     return isinstance(value, Mapping)
 
 
-def _value(value: Any) -> str:
+def key_text(key: str) -> str:
+    """A key, in quotes where it needs them."""
+    return key if _BARE.fullmatch(key) else _string(key)
+
+
+def value_text(value: Any, column: int = 0) -> str:
+    """A value that begins at a column. Raises TypeError for what TOML cannot hold."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
         return repr(value)  # the shortest digits that give the float back; also inf
     if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, Sequence):
-        return f"[{', '.join(_value(item) for item in value)}]"
+        return _string(value)
+    if isinstance(value, (datetime, date, time)):
+        return value.isoformat()
+    if isinstance(value, Mapping):
+        inside = ", ".join(f"{key_text(key)} = {value_text(item)}" for key, item in value.items())
+        return f"{{ {inside} }}" if inside else "{}"
+    if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
+        items = [value_text(item, 4) for item in value]
+        text = f"[{', '.join(items)}]"
+        if column + len(text) <= WIDTH:
+            return text
+        return "\n".join(["[", *[f"    {item}," for item in items], "]"])
     raise TypeError(f"a TOML file cannot hold {type(value).__name__}")
 
 
-def line_of(text: str, path: Path) -> int | None:
-    """Line (from 1) of a value, or of the nearest table round it; None where it cannot be told."""
-    best: int | None = None
-    depth, here = 0, Path()
-    counts: dict[Path, int] = {}
-    quoted = ""
-    for number, line in enumerate(text.split("\n"), 1):
-        if quoted:
-            quoted = "" if line.count(quoted) % 2 else quoted
-            continue
-        found = _HEADER.match(line)
-        if found:
-            here = _opened(found[2], found[1] == "[[", counts)
-            at = here
-        else:
-            key = _KEY.match(line)
-            at = (*here, key[1]) if key else Path()
-        if len(at) > depth and path[: len(at)] == at:
-            best, depth = number, len(at)
-        quoted = next((mark for mark in ('"""', "'''") if line.count(mark) % 2), "")
-    return best
-
-
-def _opened(name: str, repeated: bool, counts: dict[Path, int]) -> Path:
-    """The place of a table whose header was read, with the indices of the arrays it stands in."""
-    parts = [part.strip() for part in name.split(".")]
-    here = Path()
-    for index, part in enumerate(parts):
-        here = (*here, part)
-        if repeated and index == len(parts) - 1:
-            counts[here] = counts.get(here, -1) + 1
-        if here in counts:
-            here = (*here, counts[here])
-    return here
+def _string(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

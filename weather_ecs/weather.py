@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import esper
 
 from weather_ecs import cloud_world, snapshot, weathers
-from weather_ecs.cloud_files import CloudFile, load_clouds, save_clouds
+from weather_ecs.cloud_files import CloudFile, check_content, load_clouds, save_clouds
 from weather_ecs.cloud_presets import find_model
 from weather_ecs.components import Cloud, Observer, Occluder, RainGauge, RippleSurface
 from weather_ecs.components._base import FAR, integer, number, vector
@@ -234,10 +234,11 @@ class Weather:
             return weathers.now(self._state)
 
     def load(self, path: str | os.PathLike[str]) -> tuple[int, ...]:
-        """Add the models, clouds, layers and climate of a file to the world; returns the entities.
+        """Add the clouds and the weather of a file to the world; returns the entities.
 
-        A model takes the place of one of the same name. Raises WeatherFileError, and changes
-        nothing, for a file that is not good from end to end.
+        A model takes the place of one of the same name; of what counts once the oldest entity's
+        counts, as everywhere. Raises WeatherFileError, and changes nothing, for a file that is not
+        good from end to end.
         """
         self._check_open()
         return self.add(load_clouds(path))
@@ -245,22 +246,25 @@ class Weather:
     def add(self, content: CloudFile) -> tuple[int, ...]:
         """Add what a file would hold, such as `presets.sky("storm")`; returns the entities.
 
-        A model takes the place of one of the same name. Raises InvalidValueError for anything else.
+        A model takes the place of one of the same name. Raises InvalidValueError, and changes
+        nothing, for anything else and for what no file can hold.
         """
         self._check_open()
         if not isinstance(content, CloudFile):
             raise InvalidValueError("content", content, "a CloudFile, as of presets.sky")
+        check_content(content)
         with in_world(self._world):
             return cloud_world.add(content)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the models, clouds and layers of the world, and its oldest climate, to a file.
+        """Write the clouds and the weather of the world to a file, from which `load` makes them.
 
-        Raises WeatherFileError and OSError; the file is then what it was.
+        See docs/cloud-files.md for what is in it. Raises WeatherFileError and OSError; the file is
+        then what it was.
         """
         self._check_open()
         with in_world(self._world):
-            content = cloud_world.gather()
+            content = cloud_world.gather(self._state)
         save_clouds(path, content)
 
     def strike(
@@ -337,14 +341,14 @@ class Weather:
             return self._ready_renderer().cloud_shadow(self._keys.key(observer))
 
     def sky(self, *, observer: Observer | None = None) -> WeatherSky:
-        """The sky's light by direction, for a game's own shaders: see `sky.glsl`.
+        """The sky's light by direction, for a game's own shaders, now: see `sky.glsl`.
 
-        The same object for good, whoever observes; what it binds is what the last draw left.
-        Raises ContextError without OpenGL.
+        The same object for good, whoever observes. Raises ContextError without OpenGL.
         """
         self._check_drawing(observer)
+        frame = self._frame()
         with _current(self._window):
-            return self._ready_renderer().sky()
+            return self._ready_renderer().sky(frame)
 
     def snow_on(self, thing: Occluder) -> float:
         """Depth in m of the snow on something that moves, since it was first asked about.

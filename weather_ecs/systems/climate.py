@@ -5,7 +5,7 @@ from __future__ import annotations
 import esper
 
 from weather_ecs.clock import STEP
-from weather_ecs.components import Climate
+from weather_ecs.components import Climate, SkyLayer
 from weather_ecs.components._base import set_unchecked
 from weather_ecs.physics.climate import state as state_at
 from weather_ecs.systems.queries import alive
@@ -18,10 +18,16 @@ def state_of(climate: Climate) -> float:
 
 
 def oldest_state(state: WeatherState) -> float | None:
-    """The state that the oldest climate is at; None without any."""
-    for _, climate in alive(Climate, state.uids):
-        return state_of(climate)
-    return None
+    """The state that everybody's climate is at: the oldest that is no layer's own; None without
+    any climate.
+    """
+    climates = alive(Climate, state.uids)
+    if len(climates) > 1:
+        layers = {uid for uid, _ in alive(SkyLayer, state.uids)}
+        for uid, climate in climates:
+            if uid not in layers:
+                return state_of(climate)
+    return state_of(climates[0][1]) if climates else None
 
 
 class ClimateSystem:

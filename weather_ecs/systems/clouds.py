@@ -11,7 +11,7 @@ from weather_ecs.components import Climate, Cloud, SkyLayer
 from weather_ecs.components._base import FAR, set_unchecked
 from weather_ecs.components.cloud_model import CloudModel
 from weather_ecs.physics.wind import height_share
-from weather_ecs.systems.climate import state_of
+from weather_ecs.systems.climate import oldest_state, state_of
 from weather_ecs.systems.cloud_layer import TICK, Box, LayerClouds
 from weather_ecs.systems.cloud_made import share_of
 from weather_ecs.systems.cloud_mix import Mix, mix_at, nearest_mix
@@ -36,12 +36,11 @@ def start_layer(state: WeatherState, uid: int, layer: SkyLayer) -> LayerClouds:
 
 
 def layer_state(state: WeatherState, uid: int) -> float:
-    """The state that the skies of a layer are at: of its own climate, or the oldest one."""
-    climates = alive(Climate, state.uids)
-    for owner, climate in climates:
+    """The state that the skies of a layer are at: of its own climate, or everybody's."""
+    for owner, climate in alive(Climate, state.uids):
         if owner == uid:
             return state_of(climate)
-    return state_of(climates[0][1]) if climates else 0.0
+    return oldest_state(state) or 0.0
 
 
 class CloudSystem:
