@@ -13,6 +13,7 @@ from imgui_bundle import imgui
 
 from weather_ecs.editor import panels, theme
 from weather_ecs.editor.document import Document
+from weather_ecs.editor.files import Files
 from weather_ecs.editor.gui import Gui
 from weather_ecs.editor.layout import Box, boxes, part_of, workspace_of
 from weather_ecs.editor.panels import Entry
@@ -39,7 +40,7 @@ class EditorWindow(pyglet.window.Window):
             *size, caption=TITLE, resizable=True, vsync=True, visible=False, file_drops=True
         )
         self.set_minimum_size(*SMALLEST)
-        self.document = Document()
+        self.document, self.files = Document(), Files()
         self.shared = Shared(moderngl.get_context())
         self.gui = Gui(self)
         self.entries: list[tuple[Entry, Panel]] = []
@@ -48,6 +49,8 @@ class EditorWindow(pyglet.window.Window):
         self._last = time.perf_counter()
         self._ready = True
         self._caption = ""
+        if path is not None:
+            self.files.open(self.document, path)
         self.set_visible(True)
 
     def play(self) -> None:

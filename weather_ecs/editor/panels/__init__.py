@@ -32,7 +32,9 @@ class Entry(NamedTuple):
     share: float = 1.0  # of the height, where panels are stacked
 
 
-PANELS: list[Entry] = []
+PANELS: list[Entry] = [
+    Entry(Place.CLOUD_VIEW, "cloud_view", "CloudView"),
+]
 
 
 def make(entry: Entry, shared: Shared) -> Panel:
