@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -14,6 +15,34 @@ from weather_ecs.errors import InvalidValueError
 FAR = 1.0e7  # m, the greatest coordinate: about the size of the Earth
 
 Check = Callable[[str, Any], Any]
+
+
+class Limits(NamedTuple):
+    """What a check lets pass, for those who make values: see `limits_of`."""
+
+    kind: str  # number, integer, flag, choice; vector, direction for several numbers
+    low: float = -math.inf
+    high: float = math.inf
+    above: bool = False  # the lowest itself is not allowed
+    size: int = 1  # of a vector
+    choices: tuple[str, ...] = ()  # texts
+    optional: bool = False  # None is allowed too
+
+
+_LIMITS: WeakKeyDictionary[Check, Limits] = WeakKeyDictionary()
+
+
+def limited(check: Check, limits: Limits) -> Check:
+    """Let `limits_of` know what a check lets pass; returns the check."""
+    _LIMITS[check] = limits
+    return check
+
+
+def limits_of(check: Check) -> Limits | None:
+    """What a check lets pass; None for one that takes other things than numbers and texts."""
+    return _LIMITS.get(check)
+
+
 _set = object.__setattr__
 
 
@@ -98,7 +127,7 @@ def number(low: float, high: float, *, above: bool = False) -> Check:
             raise InvalidValueError(field, given, allowed)
         return value
 
-    return check
+    return limited(check, Limits("number", low, high, above))
 
 
 def finite() -> Check:
@@ -111,7 +140,7 @@ def finite() -> Check:
             raise InvalidValueError(field, value, allowed)
         return result
 
-    return check
+    return limited(check, Limits("number"))
 
 
 def vector(size: int, low: float, high: float) -> Check:
@@ -125,7 +154,7 @@ def vector(size: int, low: float, high: float) -> Check:
                 raise InvalidValueError(field, value, allowed)
         return result
 
-    return check
+    return limited(check, Limits("vector", low, high, size=size))
 
 
 def unit_vector(size: int) -> Check:
@@ -143,7 +172,7 @@ def unit_vector(size: int) -> Check:
         length = math.hypot(*scaled)
         return tuple([item / length for item in scaled])
 
-    return check
+    return limited(check, Limits("direction", size=size))
 
 
 def flag() -> Check:
@@ -154,7 +183,7 @@ def flag() -> Check:
             raise InvalidValueError(field, value, "True or False")
         return bool(value)
 
-    return check
+    return limited(check, Limits("flag"))
 
 
 def integer(low: int, high: int) -> Check:
@@ -169,4 +198,4 @@ def integer(low: int, high: int) -> Check:
             raise InvalidValueError(field, value, allowed)
         return result
 
-    return check
+    return limited(check, Limits("integer", low, high))

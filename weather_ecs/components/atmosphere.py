@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any, ClassVar
 
-from weather_ecs.components._base import Check, Component, flag, number
+from weather_ecs.components._base import Check, Component, Limits, flag, limited, number
 from weather_ecs.errors import InvalidValueError
 
-_seconds = number(-2208988800.0, 4102444799.0)  # of the years 1900 to 2099
+FIRST, LAST = -2208988800.0, 4102444799.0  # s since 1970: the years 1900 to 2099
+_seconds = number(FIRST, LAST)
 _TIME = "UTC of the years 1900 to 2099: text as 2025-06-21T12:00:00Z, or seconds since 1970"
 _share = number(0.0, 1.0)
 
@@ -54,17 +55,17 @@ class Atmosphere(Component):
     rainbow: float = 1.0  # factor on what rain and sun call for, 0 to 10
 
     checks: ClassVar[dict[str, Check]] = {
-        "time": _time,
+        "time": limited(_time, Limits("number", FIRST, LAST)),
         "latitude": number(-90.0, 90.0),
         "longitude": number(-180.0, 180.0),
         "speed": number(-1.0e6, 1.0e6),
         "turbidity": number(1.0, 10.0),
-        "overcast": _optional_share,
+        "overcast": limited(_optional_share, Limits("number", 0.0, 1.0, optional=True)),
         "exposure": number(0.0, 1000.0),
         "adaptation": _share,
         "draw": flag(),
         "stars": number(0.0, 100.0),
         "disc": number(0.1, 20.0),
-        "halo": _optional_share,
+        "halo": limited(_optional_share, Limits("number", 0.0, 1.0, optional=True)),
         "rainbow": number(0.0, 10.0),
     }

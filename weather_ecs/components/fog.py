@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from weather_ecs.components._base import Check, Component, flag, number, vector
+from weather_ecs.components._base import Check, Component, Limits, flag, limited, number, vector
 
 _rgb = vector(3, 0.0, 1000.0)
 
@@ -30,7 +30,7 @@ class Fog(Component):
 
     checks: ClassVar[dict[str, Check]] = {
         "visibility": number(0.0, 1.0e7),
-        "color": _color,
+        "color": limited(_color, Limits("vector", 0.0, 1000.0, size=3, optional=True)),
         "depth": number(0.0, 1.0e5),
         "draw": flag(),
     }

@@ -9,7 +9,9 @@ from weather_ecs.components._base import (
     FAR,
     Check,
     Component,
+    Limits,
     finite,
+    limited,
     number,
     to_floats,
     vector,
@@ -52,7 +54,7 @@ class RainArea(Component):
 
     checks: ClassVar[dict[str, Check]] = {
         "center": vector(2, -FAR, FAR),
-        "radii": _radii,
+        "radii": limited(_radii, Limits("vector", SMALLEST_RADIUS, GREATEST_RADIUS, size=2)),
         "rain_rate": number(0.0, 1.0e4),
         "heading": finite(),
         "soft_edge": number(0.0, 1.0e6),

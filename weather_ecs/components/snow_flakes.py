@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from weather_ecs.components._base import Check, Component, number
+from weather_ecs.components._base import Check, Component, Limits, limited, number
 from weather_ecs.errors import InvalidValueError
 
 MODELS = ("physical", "liu_tong")
@@ -40,7 +40,7 @@ class SnowFlakes(Component):
     settling: float = 1.0  # 0 to 100, factor on how fast snow that has fallen grows deep
 
     checks: ClassVar[dict[str, Check]] = {
-        "model": _model,
+        "model": limited(_model, Limits("choice", choices=MODELS)),
         "size": number(0.05, 50.0),
         "size_maximum": number(1.0, 50.0),
         "exposure": number(1.0e-4, 1.0),

@@ -8,6 +8,8 @@ from typing import Any, ClassVar
 from weather_ecs.components._base import (
     Check,
     Component,
+    Limits,
+    limited,
     number,
     to_floats,
     unit_vector,
@@ -62,9 +64,9 @@ class Wind(Component):
     checks: ClassVar[dict[str, Check]] = {
         "direction": unit_vector(2),
         "speed": number(0.0, 150.0),
-        "law": _law,
+        "law": limited(_law, Limits("choice", choices=LAWS)),
         "start": number(-1.0e9, 1.0e9),
-        "times": _times,
+        "times": limited(_times, Limits("vector", 0.0, LONGEST, above=True, size=3)),
         "coefficients": vector(6, -100.0, 100.0),
         "period": number(0.0, LONGEST),
         "gustiness": number(0.0, 1.0),
