@@ -38,7 +38,10 @@ def a_document() -> CloudFile:
     content = presets.sky("fair", to="storm", duration=40.0)
     return replace(
         content,
-        rain_areas=(RainArea((0.0, 0.0), (60.0, 40.0), 20.0, drift=1.0), RainArea((500, 0), (9, 9))),
+        rain_areas=(
+            RainArea((0.0, 0.0), (60.0, 40.0), 20.0, drift=1.0),
+            RainArea((500, 0), (9, 9)),
+        ),
         winds=(Wind((1.0, 0.0), 6.0, gustiness=0.5),),
         fog=Fog(4000.0),
     )
@@ -208,7 +211,7 @@ def test_another_seed_is_another_weather_and_back(simulation: Simulation) -> Non
 
 def test_a_timeline_keeps_its_start_and_stays_small() -> None:
     timeline = Timeline(most=8, spacing=10)
-    for step in range(0, 4000):
+    for step in range(4000):
         if timeline.wants(step):
             timeline.add(step, bytes([step % 251]) * 3)
     assert 4 <= len(timeline) <= 8 and timeline.steps[0] == 0

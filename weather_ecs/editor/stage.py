@@ -12,6 +12,7 @@ from weather_ecs import CloudFile
 from weather_ecs.components import Atmosphere, SplashEmitter
 from weather_ecs.components._agreeing import Agreeing
 from weather_ecs.components._base import Component
+from weather_ecs.file_content import MANY, ONE
 
 C = TypeVar("C", bound=Component)
 
@@ -22,34 +23,30 @@ _OWN = "the view's own"
 
 
 def groups_of(content: CloudFile) -> Groups:
-    """What a document's entities consist of, by field and in the order of the fields.
+    """What a document's entities consist of, in the order in which a game that loads it has them.
 
     A layer has its own climate with it.
     """
     found: Groups = {}
-    for entry in fields(content):
-        value = getattr(content, entry.name)
-        if entry.name == "layer_climates":
-            continue
-        items = value if isinstance(value, tuple) else (value,)
-        parts = [(item,) for item in items if isinstance(item, Component)]
-        if entry.name == "layers":
-            own = content.layer_climates
-            parts = [
-                (*part, own[k]) if k < len(own) and own[k] is not None else part
-                for k, part in enumerate(parts)
-            ]
-        if parts:
-            found[entry.name] = tuple(parts)
+    own = content.layer_climates + (None,) * len(content.layers)
+    for name in MANY:
+        bundles: list[Bundle] = []
+        for k, part in enumerate(getattr(content, name)):
+            climate = own[k] if name == "layers" else None
+            bundles.append((part,) if climate is None else (part, climate))
+        found[name] = tuple(bundles)
+    for name in ONE:
+        part = getattr(content, name)
+        found[name] = () if part is None else ((part,),)
     return found
 
 
 def with_extras(groups: Groups) -> Groups:
     """The same with what a view of the world needs besides: a sky that is drawn, splashes."""
     more: list[Bundle] = []
-    if "atmosphere" not in groups and "sun" not in groups:
+    if not groups["atmosphere"] and not groups["sun"]:
         more.append((Atmosphere(),))
-    if "splash_emitter" not in groups:
+    if not groups["splash_emitter"]:
         more.append((SplashEmitter(),))
     return {**groups, _OWN: tuple(more)}
 

@@ -20,7 +20,7 @@ out vec4 out_color;
 vec3 land(vec3 meadow, vec2 p, float away)
 {
     vec3 grain = texture(grain_map, p / 37.0).rgb - 0.5;
-    vec3 fields = texture(land_map, p / LAND).rgb;
+    vec3 fields = texture(land_map, p / LAND + 0.5).rgb;
     float tilled = smoothstep(340.0, 400.0, length(p) + 80.0 * grain.b);
     vec3 soil = mix(meadow, fields * fields, tilled);
     float fine = texture(grain_map, p / 7.3).r - 0.5;
