@@ -21,7 +21,6 @@ from weather_ecs.components import (
     RippleSurface,
     SnowFlakes,
     SplashEmitter,
-    Sun,
     Wind,
 )
 
@@ -69,11 +68,11 @@ class Entities:
             heading=mood.wind_heading,
             drift=1.0,
         )
-        self._wind, self._sun = Wind(**BREEZE), Sun()
+        self._wind = Wind(**BREEZE)
         self._air, self._fog = Air(), Fog()
         self._drops, self.flakes = RainContainer(), SnowFlakes(settling=SETTLING)
         looks = self._drops, self.flakes, SplashEmitter(), self._air, self._fog
-        for component in (self.area, self.shower, *looks, self._wind, self._sun):
+        for component in (self.area, self.shower, *looks, self._wind):
             esper.create_entity(component)
         (x, z), (a, b), level = place.pond
         size = (2.0 * POND_RIM * a, 2.0 * POND_RIM * b)
@@ -114,19 +113,11 @@ class Entities:
         if x * self._wind.direction[0] + z * self._wind.direction[1] < 1.0 - 1e-9:
             self._wind.direction = (x, z)
         _assign(self._air, temperature=mood.temperature, humidity=mood.humidity)
-        _assign(self._fog, visibility=clearest(mood.visibility), color=displayed(light))
+        seen = clearest(mood.visibility)
+        _assign(self._fog, visibility=seen, depth=fog_depth(seen), color=displayed(light))
         left = under_cloud(mood.rain_rate if dark_for is None else dark_for)
         _assign(self._drops, brightness=round(left * DROPS_BRIGHT, 3))
         _assign(self.flakes, brightness=round(left * FLAKES_BRIGHT, 3))
-        _assign(
-            self._sun,
-            color=light.sun_color,
-            zenith_color=light.zenith_color,
-            horizon_color=light.horizon_color,
-            ground_color=light.ground_color,
-        )
-        if math.dist(self._sun.direction, light.sun_direction) > 1e-9:
-            self._sun.direction = light.sun_direction
         for lamp, (r, g, b) in self._lamps:
             _assign(lamp, color=(r * light.lamps, g * light.lamps, b * light.lamps))
         for name, pose in self._place.poses(time).items():
@@ -173,14 +164,14 @@ def clearest(visibility: float) -> float:
     return min(visibility, CLEAREST)
 
 
-def fog_left(visibility: float) -> float:
-    """Share of the sun's light that gets down through the fog overhead, 0 to 1."""
-    return math.exp(-fog_overhead(visibility))
-
-
 def fog_overhead(visibility: float) -> float:
     """Optical depth of the fog straight up, without the haze that is always there."""
     return 3.912 * (1.0 / clearest(visibility) - 1.0 / CLEAREST) * FOG_DEPTH
+
+
+def fog_depth(visibility: float) -> float:
+    """m of the weather's fog overhead: the haze that is always there takes nothing of the sky."""
+    return FOG_DEPTH * max(1.0 - visibility / CLEAREST, 0.0)
 
 
 def displayed(light: Light) -> tuple[float, float, float]:

@@ -16,7 +16,7 @@ from demo_game.camera import Pose, projection_matrix, view_matrix
 from demo_game.cloudscape import STEADY, Cloudscape, all_layers, light_layers, steady_layers
 from demo_game.collision import Colliders
 from demo_game.compass import compass
-from demo_game.entities import Entities, direction, fog_left, fog_overhead
+from demo_game.entities import Entities, direction, fog_overhead
 from demo_game.letter import Letter, State
 from demo_game.mood import (
     AIRS,
@@ -33,11 +33,11 @@ from demo_game.plays import Play, Turn
 from demo_game.render import Air, Environment, RainPatch, SceneRenderer
 from demo_game.settings import Settings
 from demo_game.showers import Showers
-from demo_game.skies import SkyChanger, dim, hide, under_cloud
+from demo_game.skies import Light, SkyChanger, light_of, under_cloud
 from demo_game.tours import Tour
 from demo_game.wholes import CENTER, KEY_TIME, Wholes, next_whole
 from weather_ecs import Weather
-from weather_ecs.components import Atmosphere, Climate, Observer, RainArea, SkyLayer
+from weather_ecs.components import Climate, Observer, RainArea, SkyLayer
 from weather_ecs.errors import WeatherError
 from weather_ecs.presets import PRESETS, SKIES
 
@@ -49,9 +49,9 @@ STRIKE_AHEAD, SPREAD = 900.0, 0.3  # m and rad, of a strike that the player call
 MARK, MARKS = 2.0, 60  # s, and how many of them are kept
 HEARD_FROM = 1.0  # m that the player's ears move before the weather is told
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
-SKY_LEAST, SKY_SHARE = 0.05, 0.40  # cover of the sky at large: the rain brings its own clouds
+SKY_LEAST, SKY_SHARE = 0.02, 0.20  # cover of the sky at large: the rain brings its own clouds
 CLOUDS_FROM_TO = 700.0, 2900.0  # m, in which one comes out of them
-SHEET_SHARE = 0.35  # more where the cloud is one sheet
+SHEET_SHARE = 0.55  # more where the cloud is one sheet
 SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
 COMPARED_TOURS = ("walk", "run", "crossing")
 LIGHT = ("low", "medium", "auto")  # qualities at which a measured tour has but some cumulus
@@ -96,7 +96,9 @@ class Game:
         if metar is not None or self._has_whole_play:
             # Theirs is to count from the first frame on.
             self.mood.put(replace(self.mood.current, rain_rate=0.0), METAR)
-        self.sky = SkyChanger()
+        compared = self._is_compared
+        self.sky = SkyChanger(draw=not compared, runs=tour is None, rainbow=not compared)
+        self.light = Light()  # of the last update
         self._context, self._seed = context, seed
         self._before = esper.current_world
         self._world = f"demo_game {next(_numbers)}"
@@ -107,7 +109,8 @@ class Game:
         self.pose = self._pose()
         self.letter = Letter(self.place.letter, self.place.mailbox)
         self._showers, self._lull, self._news = Showers(seed), False, [FETCH]
-        self._entities = Entities(self.place, self._mood(), self._light(), SCENE_START)
+        self._entities = Entities(self.place, self._mood(), self.light, SCENE_START)
+        esper.create_entity(self.sky.atmosphere)
         self._scape = Cloudscape(self._scenery().state, self._entities.areas(), self._layers())
         self._struck, self._strikes = -math.inf, 0
         esper.set_handler("strike", self._on_strike)
@@ -118,10 +121,10 @@ class Game:
         self.scene = SceneRenderer(context, self.place, settings.quality)
         try:
             self.weather = self._make_weather()
-            night = getattr(self._play, "night", None)
-            if night is not None:
-                self.sky.be_night()
-                esper.create_entity(Atmosphere(night, latitude=45.0, speed=0.0, draw=True))
+            hour = getattr(self._play, "hour", None)
+            if hour is not None:
+                self.sky.be(hour)
+            self._light_up()
             if metar is not None:
                 self._report(metar)
             elif not (preset in PRESETS or preset in SKIES or self._has_whole_play):
@@ -166,8 +169,9 @@ class Game:
         self.sky.update(dt)
         share = self._showers.share(self.time) if self.tour is None else 1.0
         scenery = self._scenery()
-        light, dark_for = self._light(), scenery.rain_rate + scenery.carried
-        self._entities.update(self._mood(), light, self._scene_time, share, dark_for)
+        self._cover()
+        dark_for = scenery.rain_rate + scenery.carried
+        self._entities.update(self._mood(), self.light, self._scene_time, share, dark_for)
         rates = [rate for _, rate in self._entities.rates(scenery)]
         self._scape.update(dt * self.weather.speed, scenery.state, rates)
         if self.tour is None:
@@ -176,6 +180,7 @@ class Game:
         if math.dist(self._observer.position, self.pose.eye) > HEARD_FROM:
             self._observer.position = self.pose.eye
         esper.process(dt)
+        self.light = light_of(self.weather.light)
         if self.tour is None:
             self._carry_letter(dt)
 
@@ -283,7 +288,7 @@ class Game:
         whole = self.wholes.mood(self.weather)
         if whole is not None:
             self.mood.put(*whole)
-        self._entities.update(self._mood(), self._light(), SCENE_START)
+        self._light_up()
 
     def _leave_whole(self) -> None:
         self.wholes.leave(self.weather, self.mood.target)
@@ -415,11 +420,18 @@ class Game:
         left = min(max((high - self.pose.eye[1]) / (high - low), 0.0), 1.0)
         return share * left * left * (3.0 - 2.0 * left)
 
-    def _light(self) -> Any:
-        light = self.sky.light(self._overcast())
+    def _cover(self) -> None:
+        """Tell the sky what covers it."""
         mood = self._scenery()
-        light = dim(light, 1.0 - GLOOM * mood.closed * (1.0 - under_cloud(mood.carried)))
-        return hide(light, fog_left(mood.visibility))
+        gloom = 1.0 - GLOOM * mood.closed * (1.0 - under_cloud(mood.carried))
+        self.sky.cover(self._overcast(), gloom, self.light)
+
+    def _light_up(self) -> None:
+        """Let the light be that of the weather as it is, and everything be lit by it."""
+        for _ in range(2):  # how much of it is shown follows from how much there is
+            self._cover()
+            self.light = light_of(self.weather.light)
+        self._entities.update(self._mood(), self.light, SCENE_START)
 
     def _wind(self, mood: Mood) -> tuple[float, float, float]:
         """What the scenery sways in, m/s at 10 m; on a tour the same whatever the weather."""
@@ -430,7 +442,7 @@ class Game:
         return (mood.wind_speed * x, 0.0, mood.wind_speed * z)
 
     def _environment(self) -> Environment:
-        light, overcast = self._light(), self._overcast()
+        light, overcast = self.light, self._overcast()
         mood = self._scenery()
         return Environment(
             sun_direction=light.sun_direction,
@@ -452,6 +464,8 @@ class Game:
             snow=self._snows,
             actor_snow=self._entities.snow_on_actors(self.weather),
             lamps=light.lamps,
+            sky=self.weather.sky(),
+            draws_sky=not self.sky.atmosphere.draw,
         )
 
     def _flash_air(self) -> Air | None:

@@ -131,7 +131,7 @@ class NightPlay:
     """A night of showers under a full moon."""
 
     has_whole = True
-    night = "2025-03-13T21:30:00Z"  # UTC, at 45 degrees north
+    hour = "night"
 
     def at(self, time: float, wind_heading: float) -> Turn:
         """The weather at `time` s of the tour."""

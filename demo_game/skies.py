@@ -1,137 +1,88 @@
-"""Times of day: where the sun stands and what colours its light and the sky have."""
+"""Times of day: the game's `Atmosphere`, what covers its sky, and the lamps that it calls for."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+
+from weather_ecs.components import Atmosphere
 
 Color = tuple[float, float, float]
+
+LATITUDE = 45.0  # degrees north
+DAY = 86_400.0  # s
+LEAST_HEIGHT = 0.06  # sine, of what casts shadows: long ones find no end
+SEEN = 0.15  # of the light on level ground of a bright day, below which the game shows more of it
+MOST_EXPOSURE = 5.0
+LAMPS_DARK, LAMPS_LIGHT = 0.25, 0.85  # light on level ground between which lamps are turned up
+LAMPS_LEAST = 0.25
 
 
 @dataclass(frozen=True)
 class TimeOfDay:
-    """Light of a clear sky, linear RGB."""
+    """A moment of the game's day."""
 
     name: str
-    sun_direction: tuple[float, float, float]  # unit, towards the sun
-    sun_color: Color
-    zenith_color: Color
-    horizon_color: Color
-    ground_color: Color
-    lamps: float  # 0..1, how bright the lamps burn
+    time: str  # UTC, at longitude 0
+
+
+# A day of March before the night of a full moon, from the afternoon on; the key goes round.
+TIMES = (
+    TimeOfDay("afternoon", "2025-03-13T15:30:00Z"),  # the sun 25 degrees high, behind one's left
+    TimeOfDay("evening", "2025-03-13T17:10:00Z"),
+    TimeOfDay("dusk", "2025-03-13T18:20:00Z"),
+    TimeOfDay("night", "2025-03-13T21:30:00Z"),
+    TimeOfDay("morning", "2025-03-13T07:40:00Z"),
+    TimeOfDay("noon", "2025-03-13T12:10:00Z"),
+)
 
 
 @dataclass(frozen=True)
 class Light:
-    """Light under a sky that is partly covered, linear RGB."""
+    """Light of sun, sky and ground, linear RGB, and the lamps in it."""
 
-    sun_direction: tuple[float, float, float]
-    sun_color: Color
-    zenith_color: Color
-    horizon_color: Color
-    ground_color: Color
-    lamps: float
+    sun_direction: tuple[float, float, float] = (-0.77, 0.42, 0.48)  # unit, towards sun or moon
+    sun_color: Color = (0.95, 0.84, 0.66)
+    zenith_color: Color = (0.14, 0.23, 0.43)
+    horizon_color: Color = (0.69, 0.82, 0.95)
+    ground_color: Color = (0.13, 0.14, 0.13)
+    lamps: float = LAMPS_LEAST  # 0..1, how bright they burn
 
-
-def _towards(azimuth: float, height: float) -> tuple[float, float, float]:
-    """Unit vector; azimuth in degrees from -z (north) over +x (east)."""
-    a, h = math.radians(azimuth), math.radians(height)
-    return math.sin(a) * math.cos(h), math.sin(h), -math.cos(a) * math.cos(h)
-
-
-TIMES = (
-    TimeOfDay(
-        "afternoon", _towards(227.0, 25.0),
-        (1.00, 0.86, 0.66), (0.20, 0.32, 0.52), (0.62, 0.68, 0.74), (0.19, 0.18, 0.14), 0.45,
-    ),
-    TimeOfDay(
-        "evening", _towards(272.0, 9.0),
-        (0.95, 0.50, 0.22), (0.15, 0.20, 0.36), (0.66, 0.47, 0.36), (0.14, 0.11, 0.09), 0.85,
-    ),
-    TimeOfDay(
-        "dusk", _towards(296.0, 4.0),
-        (0.10, 0.07, 0.08), (0.030, 0.045, 0.095), (0.13, 0.12, 0.15), (0.03, 0.03, 0.035), 1.0,
-    ),
-    TimeOfDay(
-        "morning", _towards(98.0, 14.0),
-        (0.92, 0.72, 0.50), (0.20, 0.32, 0.54), (0.66, 0.65, 0.66), (0.17, 0.16, 0.13), 0.6,
-    ),
-    TimeOfDay(
-        "noon", _towards(186.0, 55.0),
-        (1.00, 0.94, 0.84), (0.16, 0.32, 0.62), (0.52, 0.64, 0.78), (0.20, 0.20, 0.16), 0.3,
-    ),
-)  # fmt: skip
-
-# Under a full moon, which an `Atmosphere` shows; it stands there on the evening of the night tour.
-NIGHT = TimeOfDay(
-    "night", _towards(130.0, 38.0),
-    (0.050, 0.058, 0.075), (0.010, 0.014, 0.026), (0.020, 0.025, 0.038), (0.008, 0.008, 0.010), 1.0,
-)  # fmt: skip
+    @property
+    def level(self) -> float:
+        """Luminance on level ground in the open."""
+        sky = brightness(self.zenith_color) + brightness(self.horizon_color)
+        return brightness(self.sun_color) * self.sun_direction[1] + 0.5 * sky
 
 
-def light(before: TimeOfDay, after: TimeOfDay, share: float) -> Light:
-    """The light on the way from one time of day to another, under a clear sky."""
-    direction = _mix(before.sun_direction, after.sun_direction, share)
-    # Halfway between opposite suns the mixture must not pass under the ground or vanish.
-    direction = (direction[0], max(direction[1], 0.06), direction[2])
-    length = math.sqrt(sum(value * value for value in direction))
-    x, y, z = (value / length for value in direction)
-    return Light(
-        (x, y, z),
-        _mix(before.sun_color, after.sun_color, share),
-        _mix(before.zenith_color, after.zenith_color, share),
-        _mix(before.horizon_color, after.horizon_color, share),
-        _mix(before.ground_color, after.ground_color, share),
-        before.lamps + share * (after.lamps - before.lamps),
+def light_of(sky: Any) -> Light:
+    """The light that `Weather.light` tells, with its lamps."""
+    x, y, z = sky.sun_direction
+    y = max(y, LEAST_HEIGHT)
+    length = math.sqrt(x * x + y * y + z * z)
+    light = Light(
+        (x / length, y / length, z / length),
+        sky.sun_color,
+        sky.zenith_color,
+        sky.horizon_color,
+        sky.ground_color,
     )
-
-
-def cover(clear: Light, overcast: float) -> Light:
-    """The same light under clouds: broken ones leave it, a closed cover makes it grey and dark."""
-    closed = min(max((overcast - 0.3) / 0.7, 0.0), 1.0)
-    grey = 0.62 * (0.5 * _brightness(clear.zenith_color) + 0.5 * _brightness(clear.horizon_color))
-    return Light(
-        clear.sun_direction,
-        _dimmed(clear.sun_color, 1.0 - 0.94 * closed),
-        _mix(clear.zenith_color, (0.92 * grey, 0.98 * grey, 1.06 * grey), closed),
-        _mix(clear.horizon_color, (1.16 * grey, 1.20 * grey, 1.24 * grey), closed),
-        _dimmed(clear.ground_color, 1.0 - 0.3 * closed),
-        clear.lamps + closed * 0.5 * (1.0 - clear.lamps),
-    )
-
-
-def hide(light: Light, left: float) -> Light:
-    """The same light under fog that leaves so much of the sun's, 0 to 1: the rest comes from all
-    round.
-    """
-    if left >= 1.0:
-        return light
-    high = 0.25 * max(light.sun_direction[1], 0.0)
-    around = _mix(_mix(light.zenith_color, light.horizon_color, 0.5), light.sun_color, high)
-    grey = 0.5 * _brightness(around)
-    r, g, b = (0.5 * value + grey for value in around)
     return Light(
         light.sun_direction,
-        _dimmed(light.sun_color, left),
-        _mix((1.06 * r, 1.06 * g, 1.06 * b), light.zenith_color, left),
-        _mix((r, g, b), light.horizon_color, left),
+        light.sun_color,
+        light.zenith_color,
+        light.horizon_color,
         light.ground_color,
-        light.lamps + 0.5 * (1.0 - left) * (1.0 - light.lamps),
+        lamps_in(light.level),
     )
 
 
-def dim(light: Light, left: float) -> Light:
-    """The same light with so much of it left, 0 to 1, as under the depth of a storm's cloud."""
-    if left >= 1.0:
-        return light
-    return Light(
-        light.sun_direction,
-        _dimmed(light.sun_color, left),
-        _dimmed(light.zenith_color, left),
-        _dimmed(light.horizon_color, left),
-        _dimmed(light.ground_color, left),
-        light.lamps + (1.0 - left) * (1.0 - light.lamps),
-    )
+def lamps_in(level: float) -> float:
+    """How bright lamps burn in such a light on level ground."""
+    dark = (LAMPS_LIGHT - level) / (LAMPS_LIGHT - LAMPS_DARK)
+    return LAMPS_LEAST + (1.0 - LAMPS_LEAST) * _smooth(dark)
 
 
 def under_cloud(rain_rate: float) -> float:
@@ -139,53 +90,86 @@ def under_cloud(rain_rate: float) -> float:
     return 1.0 - 0.45 * (1.0 - math.exp(-rain_rate / 4.0))
 
 
-def _dimmed(color: Color, share: float) -> Color:
-    return color[0] * share, color[1] * share, color[2] * share
-
-
-def _brightness(color: Color) -> float:
+def brightness(color: Color) -> float:
+    """Luminance of linear RGB."""
     return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
 
 
-def _mix(a: Color, b: Color, share: float) -> Color:
-    return (
-        a[0] + share * (b[0] - a[0]),
-        a[1] + share * (b[1] - a[1]),
-        a[2] + share * (b[2] - a[2]),
-    )
+def _smooth(x: float) -> float:
+    x = min(max(x, 0.0), 1.0)
+    return x * x * (3.0 - 2.0 * x)
 
 
 class SkyChanger:
-    """The current time of day, on its way to the one that was asked for."""
+    """Carries the time of an `Atmosphere` to the one that was asked for, and on from there."""
 
     CHANGE_TIME = 5.0  # s
 
-    def __init__(self, index: int = 0) -> None:
-        self._before = self._after = TIMES[index]
-        self._index, self._time = index, self.CHANGE_TIME
+    def __init__(self, *, draw: bool = False, runs: bool = False, rainbow: bool = True) -> None:
+        self._index, self._passed, self._runs = 0, self.CHANGE_TIME, runs
+        self._from = self._to = seconds(TIMES[0].time)
+        self.atmosphere = Atmosphere(
+            TIMES[0].time,
+            latitude=LATITUDE,
+            speed=float(runs),
+            draw=draw,
+            rainbow=float(rainbow),
+            overcast=0.0,
+        )
 
     @property
     def name(self) -> str:
         """The time of day that is there or will be reached."""
-        return self._after.name
+        return TIMES[self._index].name
 
     def next(self) -> None:
         """Go on to the next time of day."""
         self._index = (self._index + 1) % len(TIMES)
-        self._before, self._after = self._after, TIMES[self._index]
-        self._time = 0.0
+        self._from, self._passed = float(self.atmosphere.time), 0.0
+        self._to = seconds(TIMES[self._index].time)
+        if self._to < self._from:
+            self._to += DAY
 
-    def be_night(self) -> None:
-        """Be at night at once."""
-        self._before = self._after = NIGHT
-        self._time = self.CHANGE_TIME
+    def be(self, name: str) -> None:
+        """Be at a time of day at once."""
+        self._index = next(k for k, time in enumerate(TIMES) if time.name == name)
+        self._to = seconds(TIMES[self._index].time)
+        self._passed = self.CHANGE_TIME
+        self._arrive()
 
     def update(self, dt: float) -> None:
         """Let dt seconds pass."""
-        self._time = min(self._time + dt, self.CHANGE_TIME)
+        if self._passed >= self.CHANGE_TIME:
+            return
+        self._passed += dt
+        if self._passed >= self.CHANGE_TIME:
+            self._arrive()
+            return
+        share = _smooth(self._passed / self.CHANGE_TIME)
+        self.atmosphere.time = self._from + share * (self._to - self._from)
+        self.atmosphere.speed = 0.0
 
-    def light(self, overcast: float) -> Light:
-        """The light now."""
-        share = self._time / self.CHANGE_TIME
-        share = share * share * (3.0 - 2.0 * share)
-        return cover(light(self._before, self._after, share), overcast)
+    def cover(self, overcast: float, gloom: float, light: Light) -> None:
+        """Say how much of the sky is covered, and what share of the light such clouds leave.
+
+        light: as it was; in the dark more of it is shown, as by an eye that has got used to it.
+        """
+        air = self.atmosphere
+        bare = light.level / air.exposure
+        wider = min(max((SEEN / max(bare, 1e-6)) ** 0.7, 1.0), MOST_EXPOSURE)
+        # What changes by less nobody sees, and it would make the light anew every frame.
+        overcast, exposure = round(overcast, 2), round(50.0 * wider * gloom) / 50.0
+        if air.overcast != overcast:
+            air.overcast = overcast
+        if air.exposure != exposure:
+            air.exposure = exposure
+
+    def _arrive(self) -> None:
+        # The next day's is this one's: the year does not go on with the key.
+        self.atmosphere.time = seconds(TIMES[self._index].time)
+        self.atmosphere.speed = float(self._runs)
+
+
+def seconds(time: str) -> float:
+    """Since 1970, of a moment in ISO 8601."""
+    return datetime.fromisoformat(time).timestamp()

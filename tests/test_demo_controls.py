@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from types import ModuleType, SimpleNamespace
 
+import esper
 import pyglet
 import pytest
 
@@ -14,8 +15,16 @@ from demo_game.gamepad import Gamepads
 from demo_game.input import PRESET_KEYS, Controls, Stick, dead_zone
 from demo_game.mood import CHANGE_TIME, STRONGEST_WIND, MoodChanger, preset_mood
 from demo_game.settings import FIELDS_OF_VIEW, QUALITIES, Settings, step
-from demo_game.skies import TIMES, SkyChanger
+from demo_game.skies import (
+    LAMPS_LEAST,
+    MOST_EXPOSURE,
+    TIMES,
+    SkyChanger,
+    light_of,
+    seconds,
+)
 from demo_game.ui.menu import Menu, MenuActions, MouseRest, pause_menu
+from weather_ecs import Weather
 from weather_ecs.presets import PRESETS
 
 
@@ -159,24 +168,43 @@ def test_wind_by_hand_stays_in_its_range_and_keeps_the_rain() -> None:
     assert mood.current.wind_speed == 0.0
 
 
-@pytest.mark.parametrize("overcast", [0.0, 0.5, 1.0])
-def test_light_is_finite_and_never_from_below(overcast: float) -> None:
-    sky = SkyChanger()
+def test_times_of_day_go_round_and_the_light_never_comes_from_below() -> None:
+    esper.switch_world("times of day")
+    weather, sky = Weather(), SkyChanger(runs=True)
+    esper.create_entity(sky.atmosphere)
+    lamps = {}
     for _ in range(len(TIMES)):
         sky.next()
-        for _ in range(60):
-            sky.update(0.1)
-            light = sky.light(overcast)
+        before = float(sky.atmosphere.time)
+        for _ in range(26):
+            sky.update(0.2)
+            esper.process(0.0)
+            light = light_of(weather.light)
+            sky.cover(0.1, 1.0, light)
             assert light.sun_direction[1] > 0.0
             assert math.hypot(*light.sun_direction) == pytest.approx(1.0)
             for color in (light.sun_color, light.zenith_color, light.horizon_color):
                 assert all(0.0 <= channel <= 2.0 for channel in color)
+            assert float(sky.atmosphere.time) >= before or sky.atmosphere.speed
+        assert sky.atmosphere.time == seconds(next(t.time for t in TIMES if t.name == sky.name))
+        assert sky.atmosphere.speed == 1.0
+        lamps[sky.name] = light.lamps
     assert sky.name == TIMES[0].name
+    assert lamps["dusk"] == lamps["night"] == 1.0
+    assert lamps["noon"] == LAMPS_LEAST < lamps["evening"]
+    assert 1.0 < sky_exposure(weather, sky, "night") <= MOST_EXPOSURE
+    assert sky_exposure(weather, sky, "noon") == 1.0
+    weather.close()
+    esper.switch_world("default")
+    esper.delete_world("times of day")
 
 
-def test_clouds_take_the_sun_away() -> None:
-    sky = SkyChanger()
-    assert max(sky.light(1.0).sun_color) < 0.1 * max(sky.light(0.0).sun_color)
+def sky_exposure(weather: Weather, sky: SkyChanger, time: str) -> float:
+    sky.be(time)
+    for _ in range(3):
+        esper.process(0.0)
+        sky.cover(0.1, 1.0, light_of(weather.light))
+    return sky.atmosphere.exposure
 
 
 class FakePad:

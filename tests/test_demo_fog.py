@@ -12,12 +12,11 @@ import numpy as np
 import pytest
 
 from demo_game.camera import Pose, projection_matrix, view_matrix
-from demo_game.entities import CLEAREST, clearest, fog_left, fog_overhead, shown
+from demo_game.entities import CLEAREST, clearest, fog_depth, fog_overhead, shown
 from demo_game.game import Game
 from demo_game.mood import AIRS
 from demo_game.place import Place, layout, sight_posts
 from demo_game.settings import Settings
-from demo_game.skies import TIMES, cover, hide, light
 from weather_ecs.physics.optics import fog_factor, visibility_to_extinction
 from weather_ecs.presets import PRESETS
 
@@ -133,14 +132,20 @@ def test_visibility_glides_and_the_scene_keeps_to_the_weathers_air(
     assert all(1.0 <= b / a < 1.06 for a, b in zip(lost, lost[1:], strict=False))
 
 
-def test_fog_takes_the_sun_and_lights_from_all_round() -> None:
+def test_fog_takes_the_sun_and_lights_from_all_round(ctx: moderngl.Context, place: Place) -> None:
     assert clearest(1e5) == CLEAREST
-    assert fog_left(CLEAREST) == 1.0 and fog_overhead(1e9) == 0.0
-    assert fog_left(250.0) < 0.03
-    day = cover(light(TIMES[0], TIMES[0], 1.0), 0.4)
-    assert hide(day, 1.0) is day
-    dull = hide(day, fog_left(250.0))
+    assert fog_depth(CLEAREST) == 0.0 == fog_overhead(1e9)
+    lights = {}
+    for preset in ("clear", "fog"):
+        game = Game(ctx, Settings(quality="low"), place=place, preset=preset)
+        game.update(0.0)
+        lights[preset] = game.light
+        env = game._environment()
+        assert env.sun_color == game.weather.light.sun_color
+        assert env.fog_color == env.horizon_color == game.weather.light.horizon_color
+        game.close()
+    day, dull = lights["clear"], lights["fog"]
     assert max(dull.sun_color) < 0.05 * max(day.sun_color)
-    spread = [max(c) - min(c) for c in (dull.horizon_color, dull.zenith_color)]
-    assert max(spread) < 0.5 * (max(day.zenith_color) - min(day.zenith_color))
+    spread = [max(c) / min(c) for c in (dull.horizon_color, dull.zenith_color, day.zenith_color)]
+    assert max(spread[:2]) < 1.5 < 2.0 < spread[2]
     assert dull.lamps > day.lamps

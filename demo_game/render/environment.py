@@ -55,6 +55,8 @@ class Environment:
     air: Air | None = None  # of the weather while there is lightning, for its light
     snow: bool = False  # whether any may lie, as `water` knows
     actor_snow: tuple[float, float] = (0.0, 0.0)  # m, on the figure and on the sails
+    sky: Water | None = None  # of the weather, by direction; without it a gradient
+    draws_sky: bool = True  # here; else the weather draws it behind the scene
     lamps: float | None = None  # 0..1, how bright lamps burn; None: as the daylight asks
 
     @property

@@ -120,7 +120,8 @@ class SceneRenderer:
         target.depth_mask = True
         target.clear(0.0, 0.0, 0.0, 1.0, viewport=viewport)
         self._draw_solid(planes, camera, environment)
-        self._sky.draw(v, p)
+        if environment.draws_sky:
+            self._sky.draw(v, p)
         self._draw_blended(target, v, planes, camera, environment.ripples)
 
     def _choose(self, defines: tuple[str, ...]) -> list[moderngl.Program]:

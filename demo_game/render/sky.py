@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from .environment import Environment
 from .frame_block import FrameBlock
-from .programs import compile_program, release_all, scissor, set_matrix
+from .programs import compile_program, release_all, scissor, set_matrix, set_uniforms
 
+SKY_UNIT = 12  # of the weather's map
 JUMP = 25.0  # m the camera moves in one map's time that calls for a fresh one at once
 CHANGE = 0.12  # likewise for colours and cover
 
@@ -29,6 +30,8 @@ class Sky:
         self._bake = compile_program(ctx, "sky_bake.vert", "sky_bake.frag")
         self._show = compile_program(ctx, "sky.vert", "sky.frag")
         block.attach(self._bake, self._show)
+        block.attach(self._bake, name="WeatherSkyLight")
+        set_uniforms(self._bake, weather_sky_map=SKY_UNIT)
         block.attach(self._show, name="WeatherAir")
         self._quad = ctx.buffer(np.array([-1, -1, 3, -1, -1, 3], "f4"))
         self._grid = ctx.buffer(_grid())
@@ -52,6 +55,9 @@ class Sky:
     def paint(self, camera: NDArray, environment: Environment) -> None:
         """Paint this frame's rows, or all of them where the world has jumped."""
         self._state = _state(camera, environment)
+        set_uniforms(self._bake, has_sky=float(environment.sky is not None))
+        if environment.sky is not None:
+            environment.sky.use(self._bake, SKY_UNIT)
         self.ctx.enable_only(moderngl.NOTHING)
         if self._painted is None or _jumped(self._painted, self._state):
             self._rows(1, 0, self.size)

@@ -49,7 +49,7 @@ float open_snow_cover(vec3 p) {
 
 vec3 sky_light(vec3 n, float dim) {
     vec3 above = mix(horizon_color.rgb, zenith_color.rgb, 0.5) * (0.92 - 0.30 * dim);
-    vec3 below = ground_color.rgb * (0.45 + 0.75 * sun_direction.y) * (1.0 - 0.3 * dim);
+    vec3 below = ground_color.rgb * (1.0 - 0.3 * dim);
     return mix(below, above, n.y * 0.5 + 0.5);
 }
 

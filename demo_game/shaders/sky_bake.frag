@@ -4,6 +4,9 @@
 #include "sky_map.glsl"
 #include "tone.glsl"
 #include "fog_light.glsl"
+#include "sky.glsl"
+
+uniform float has_sky;  // 1 where the weather has one by direction
 
 in vec2 v_uv;
 out vec4 out_color;
@@ -15,11 +18,13 @@ float hash(vec2 p) {
 // Clear air: gradient, the sun and its glow.
 vec3 air(vec3 d) {
     float up = max(d.y, 0.0);
-    vec3 color = mix(horizon_color.rgb, zenith_color.rgb, 1.0 - exp(-up * 2.8));
+    vec3 plain = mix(horizon_color.rgb, zenith_color.rgb, 1.0 - exp(-up * 2.8));
+    vec3 color = mix(plain, weather_sky(vec3(d.x, up, d.z)), has_sky);
     float s = max(dot(d, sun_direction.xyz), 0.0);
     float s4 = s * s * s * s;
     vec3 glow = sun_color.rgb * (1.0 - 0.75 * zenith_color.w);
-    color += glow * (0.06 * s * s + 0.16 * s4 * s4 + 0.40 * pow(s, 90.0) + 9.0 * pow(s, 2600.0));
+    color += glow * (0.06 * s * s + 0.16 * s4 * s4) * (1.0 - has_sky);
+    color += glow * (0.40 * pow(s, 90.0) + 9.0 * pow(s, 2600.0));
     vec3 mist = fog_color.rgb + glow * (0.30 * s * s * s);
     return mix(color, mist, exp(-up * 14.0) * 0.7);
 }

@@ -296,12 +296,15 @@ class Renderer:
         self._gl.glDepthMask(0)
         self._bolts.draw(view, rain)
 
-    def sky(self) -> WeatherSky:
-        """The sky's radiance, for a game's own shaders."""
-        if self._weather_sky is None:
+    def sky(self, frame: FrameData) -> WeatherSky:
+        """The sky's radiance in a frame, for a game's own shaders."""
+        sky = self._weather_sky
+        if sky is None or sky.stale(frame.atmosphere, frame.sky):
             with self._guard:
-                self._weather_sky = self._keep(WeatherSky(self._ctx, self._shaders))
-        return self._weather_sky
+                if sky is None:
+                    sky = self._weather_sky = self._keep(WeatherSky(self._ctx, self._shaders))
+                sky.update(frame.atmosphere, frame.sky)
+        return sky
 
     def _needs_sky(self, view: ViewData) -> bool:
         """Whether there is a sky to draw, or its map to bring up to date."""
@@ -316,8 +319,7 @@ class Renderer:
         if air is None or not air.draw:
             return
         if self._sky is None:
-            self._sky = self._keep(SkyPass(self._ctx, self._shaders, self.sky()))
-            self.sky().update(air, view.frame.sky)
+            self._sky = self._keep(SkyPass(self._ctx, self._shaders, self.sky(view.frame)))
             self._guard.bind_framebuffer()
         if self._sky.draws(view) and self._depth.available(self._guard):
             self._gl.glDepthMask(0)
