@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 STEEPEST = math.radians(89.0)
 NEAREST, FARTHEST = 1.0, 2.0e6  # m, of the point that is looked at
+FILLED = 1.06  # of the picture, by the box that is framed: clouds are round
 SPEED = 0.7  # distances to the point in a second of flight
 _TURN = 0.0075  # rad that a pixel of dragging turns
 
@@ -93,9 +94,14 @@ class OrbitCamera:
         way = ahead * self.forward() + aside * self.right() + np.array([0.0, above, 0.0])
         self.target = self.target + way * (SPEED * self.distance * dt)
 
-    def frame(self, center: Vector, radius: float, aspect: float = 1.5) -> None:
-        """Bring a sphere into the picture, from the side it is seen from now."""
-        half = 0.5 * self.fov
-        half = min(half, math.atan(math.tan(half) * aspect))
+    def frame(self, low: Vector, high: Vector, aspect: float = 1.5) -> None:
+        """Bring a box into the picture, as large as it fits, from the side it is seen from now."""
+        center, half = 0.5 * (low + high), 0.5 * (high - low)
+        tall = math.tan(0.5 * self.fov) * FILLED
+        wide = tall * aspect
+        # A corner is in the picture where the camera is as far from it as it is off the axis.
+        rights, ups = half * np.abs(self.right()), half * np.abs(self.up())
+        ahead = float((half * np.abs(self.forward())).sum())
+        needed = max(float(rights.sum()) / max(wide, 1e-3), float(ups.sum()) / tall)
         self.target = np.array(center, np.float64)
-        self.distance = min(max(1.02 * radius / math.sin(half), NEAREST), FARTHEST)
+        self.distance = min(max(needed + 0.5 * ahead, NEAREST), FARTHEST)

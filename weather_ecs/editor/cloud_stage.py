@@ -33,6 +33,16 @@ class Posed(NamedTuple):
     middle: NDArray[np.float64]  # m, of the shape's centre
     own: tuple[int, ...]  # row of the shape's boxes that each of the model's seeds is
 
+    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Least and greatest corner of what the billboards show, m."""
+        shown = self.shape.billboards
+        if not len(shown):
+            half, centers = 0.5 * self.shape.sizes, self.shape.centers
+        else:  # the outer rim of an image is clear
+            half, centers = 0.4 * shown["size"][:, [0, 1, 0]], shown["position"]
+        low, high = (centers - half).min(axis=0), (centers + half).max(axis=0)
+        return low + self.middle, high + self.middle
+
 
 class CloudStage:
     """The cloud of a model and a number; the same objects from frame to frame."""

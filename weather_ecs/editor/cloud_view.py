@@ -78,13 +78,7 @@ class CloudView:
             shared.frame_wanted = True
         if shared.frame_wanted and posed is not None:
             shared.frame_wanted = False
-            centers = posed.shape.centers + posed.middle
-            reach = 0.5 * posed.shape.sizes + 0.25 * np.abs(posed.shape.billboards["size"]).max(
-                initial=0.0
-            )
-            low, high = (centers - reach).min(axis=0), (centers + reach).max(axis=0)
-            radius = 0.46 * float(np.linalg.norm(high - low))
-            self.camera.frame(0.5 * (low + high), radius, rect.aspect)
+            self.camera.frame(*posed.bounds(), rect.aspect)
 
     def _take_picture(self, model: CloudModel | None, shared: Shared, rect: view.Rect) -> None:
         """Draw anew, unless it would come out as the last one did."""

@@ -71,10 +71,18 @@ class Shared:
     workspace: str = "cloud"  # or "sky"
     gizmo: str = "move"  # or "size", or "none"
     frame_wanted: bool = True  # the view is to bring the whole cloud into the picture
+    focus: str = "model"  # what copy and paste mean: "model", "seed", "root", or another panel's
     dt: float = 1.0 / 60.0  # s of the machine's clock since the last frame
     note: str = ""
     note_age: float = 0.0  # s
     note_bad: bool = False
+
+    def choose_model(self, index: int) -> None:
+        """Edit another model, from its first seed on."""
+        chosen = self.selection
+        chosen.model, chosen.seed, chosen.root = index, 0, 0
+        self.focus = "model"
+        self.frame_wanted = True
 
     def say(self, text: str, *, bad: bool = False) -> None:
         """Show a line of text for a while; `bad` for what went wrong."""

@@ -1,0 +1,59 @@
+"""A list of things to choose from, with New, Copy and Delete below it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from imgui_bundle import imgui
+
+from weather_ecs.editor import theme
+from weather_ecs.editor.view_bar import tip_of_last
+
+
+def choose(name: str, items: Sequence[tuple[str, str]], index: int, rows: float) -> int:
+    """A list of (text, remark) of so many rows' height; the index that is chosen now.
+
+    `-1` where nothing was there to choose. A list that grows past its height scrolls.
+    """
+    high = rows * imgui.get_text_line_height_with_spacing() + 8.0
+    imgui.push_style_color(imgui.Col_.child_bg, theme.vec4(theme.WELL))
+    opened = imgui.begin_child(name, imgui.ImVec2(0.0, high), imgui.ChildFlags_.borders)
+    imgui.pop_style_color()
+    if opened:
+        clipper = imgui.ListClipper()
+        clipper.begin(len(items))
+        while clipper.step():
+            for row in range(clipper.display_start, clipper.display_end):
+                text, remark = items[row]
+                imgui.push_id(row)
+                if imgui.selectable(text, row == index)[0]:
+                    index = row
+                if remark:
+                    imgui.same_line()
+                    wide = imgui.calc_text_size(remark).x
+                    left = imgui.get_content_region_avail().x - wide
+                    if left > 4.0:
+                        imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + left)
+                        imgui.text_disabled(remark)
+                    else:
+                        imgui.new_line()
+                imgui.pop_id()
+    imgui.end_child()
+    return index
+
+
+def buttons(*labels: tuple[str, bool, str]) -> str | None:
+    """Buttons of equal width on a line: label, whether it can be pressed, tip; the one pressed."""
+    gap = 4.0
+    wide = (imgui.get_content_region_avail().x - gap * (len(labels) - 1)) / len(labels)
+    pressed = None
+    for number, (label, enabled, tip) in enumerate(labels):
+        if number:
+            imgui.same_line(0.0, gap)
+        imgui.begin_disabled(not enabled)
+        if imgui.button(label, imgui.ImVec2(wide, 0.0)):
+            pressed = label
+        imgui.end_disabled()
+        if tip:
+            tip_of_last(tip)
+    return pressed
