@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     import moderngl
 
     from weather_ecs.editor.document import Document
+    from weather_ecs.editor.studio import Studio
 
 NOTE_LASTS = 6.0  # s that a note stays in the status line
 
@@ -36,6 +37,7 @@ class Selection:
     layer: int = 0
     sky: int = 0
     area: int = 0
+    wind: int = 0
 
     def clamp(self, document: Document) -> None:
         """Let every index mean something, or be 0."""
@@ -49,6 +51,7 @@ class Selection:
         self.layer = _within(self.layer, layers)
         self.sky = _within(self.sky, layers[self.layer].skies if layers else ())
         self.area = _within(self.area, content.rain_areas)
+        self.wind = _within(self.wind, content.winds)
 
 
 @dataclass(slots=True)
@@ -76,6 +79,7 @@ class Shared:
     note: str = ""
     note_age: float = 0.0  # s
     note_bad: bool = False
+    studio: Studio | None = None  # the simulation; see `studio.studio_of`
 
     def choose_model(self, index: int) -> None:
         """Edit another model, from its first seed on."""
