@@ -48,10 +48,10 @@ def content_of(document: Mapping[str, Any]) -> CloudFile:
         tables = document.get(key, [])
         if kind is SkyLayer:
             tables, own = _own_climates(tables)
-        values[key] = tuple(_many(kind, tables, (key,)))
+        values[key] = tuple(many(kind, tables, (key,)))
     for key, kind in ONE.items():
         table = document.get(key)
-        values[key] = None if table is None else _one(kind, table, (key,))
+        values[key] = None if table is None else one(kind, table, (key,))
     values["quality"] = document.get("quality")
     values["extra"] = document.get("extra", {})
     content = CloudFile(**values, layer_climates=tuple(own) if any(own) else ())
@@ -66,41 +66,45 @@ def document_of(content: CloudFile) -> Table:
     """
     models: dict[str, CloudModel] = {}
 
-    def use(model: CloudModel | str) -> str:
-        if isinstance(model, str):
-            return model
+    def use(model: CloudModel) -> None:
         if models.setdefault(model.name, model) is not model:
             raise PlacedError(("models",), model.name, "names that all differ")
-        return model.name
-
-    def plain(value: Any) -> Any:
-        if isinstance(value, CloudModel):
-            return use(value)
-        if isinstance(value, Component):
-            return table(value)
-        return [plain(item) for item in value] if isinstance(value, tuple) else value
-
-    def table(value: Component) -> Table:
-        found = {entry.name: getattr(value, entry.name) for entry in fields(value)}  # type: ignore[arg-type]
-        if isinstance(value, Atmosphere):
-            found["time"] = as_text(value.time)
-        return {key: plain(item) for key, item in found.items() if item is not None}
 
     for model in content.models:
         use(model)
     found: Table = {"version": VERSION, "quality": content.quality, "models": []}
     for key in MANY:
         if key != "models":
-            found[key] = [table(item) for item in getattr(content, key)]
+            found[key] = [table_of(item, use) for item in getattr(content, key)]
     for layer, climate in zip(found["layers"], content.layer_climates, strict=False):
         if climate is not None:
-            layer[CLIMATE] = table(climate)
+            layer[CLIMATE] = table_of(climate)
     for key in ONE:
         single = getattr(content, key)
-        found[key] = None if single is None else table(single)
-    found["models"] = [table(model) for model in models.values()]
+        found[key] = None if single is None else table_of(single)
+    found["models"] = [table_of(model) for model in models.values()]
     found["extra"] = content.extra or None
     return {key: value for key, value in found.items() if value is not None and value != []}
+
+
+def table_of(part: Component, use: Callable[[CloudModel], None] | None = None) -> Table:
+    """A component's fields as plain values; models that it holds become names, and `use` is told
+    of them.
+    """
+
+    def plain(value: Any) -> Any:
+        if isinstance(value, CloudModel):
+            if use is not None:
+                use(value)
+            return value.name
+        if isinstance(value, Component):
+            return table_of(value, use)
+        return [plain(item) for item in value] if isinstance(value, tuple) else value
+
+    found = {entry.name: getattr(part, entry.name) for entry in fields(part)}  # type: ignore[arg-type]
+    if isinstance(part, Atmosphere):
+        found["time"] = as_text(part.time)
+    return {key: plain(item) for key, item in found.items() if item is not None}
 
 
 def as_text(time: float | str) -> float | str:
@@ -145,22 +149,23 @@ def _own_climates(layers: Any) -> tuple[Any, list[Climate | None]]:
     for index, layer in enumerate(layers):
         table = layer.get(CLIMATE) if isinstance(layer, dict) else None
         place = ("layers", index, CLIMATE)
-        own.append(None if table is None else _one(Climate, table, place))
+        own.append(None if table is None else one(Climate, table, place))
         if isinstance(layer, dict):
             layer = {key: value for key, value in layer.items() if key != CLIMATE}
         rest.append(layer)
     return rest, own
 
 
-def _many(kind: type[C], value: Any, path: Path) -> list[C]:
+def many(kind: type[C], value: Any, path: Path) -> list[C]:
+    """Components out of an array of tables. Raises PlacedError."""
     if not isinstance(value, list):
         plain = ".".join(str(part) for part in path if not isinstance(part, int))
         raise PlacedError(path, value, f"an array of tables, [[{plain}]]")
-    return [_one(kind, item, (*path, index)) for index, item in enumerate(value)]
+    return [one(kind, item, (*path, index)) for index, item in enumerate(value)]
 
 
-def _one(kind: type[C], table: Any, path: Path) -> C:
-    """A component out of a table that has its fields."""
+def one(kind: type[C], table: Any, path: Path) -> C:
+    """A component out of a table that has its fields. Raises PlacedError."""
     if not isinstance(table, dict):
         raise PlacedError(path, table, f"a table with the fields of {kind.__name__}")
     entries = fields(kind)  # type: ignore[arg-type]
@@ -176,7 +181,7 @@ def _one(kind: type[C], table: Any, path: Path) -> C:
     for key in table:
         inside = INSIDE.get((kind, key))
         if inside is not None:
-            values[key] = tuple(_many(inside, table[key], (*path, key)))
+            values[key] = tuple(many(inside, table[key], (*path, key)))
     if kind is Atmosphere and isinstance(values.get("time"), datetime):
         values["time"] = values["time"].isoformat()
     try:

@@ -30,14 +30,19 @@ def check(content: CloudFile, before: CloudFile | None = None) -> None:
 
 def with_item(content: CloudFile, field: str, index: int, item: Any) -> CloudFile:
     """Another item in place of the one at `index` of a list."""
-    return replace(content, **{field: swapped(getattr(content, field), index, item)})
+    return put(content, **{field: swapped(getattr(content, field), index, item)})
+
+
+def put(content: CloudFile, **values: Any) -> CloudFile:
+    """Other values of fields whose names are only known as text."""
+    return replace(content, **values)
 
 
 def with_new(content: CloudFile, field: str, item: Any, index: int | None = None) -> CloudFile:
     """One more item, before the one at `index`, or last."""
     items = getattr(content, field)
     at = len(items) if index is None else index
-    changed = replace(content, **{field: (*items[:at], item, *items[at:])})
+    changed = put(content, **{field: (*items[:at], item, *items[at:])})
     if field == "layers" and at < len(content.layer_climates):
         own = content.layer_climates
         changed = replace(changed, layer_climates=(*own[:at], None, *own[at:]))
@@ -54,16 +59,16 @@ def without(content: CloudFile, field: str, index: int) -> CloudFile:
         return replace(content, layers=rest, layer_climates=own[:index] + own[index + 1 :])
     if field == "models" and gone.name not in CLOUD_MODELS:  # else the package's own serves
         content = _renamed(content, gone.name, None)
-    return replace(content, **{field: rest})
+    return put(content, **{field: rest})
 
 
 def moved(content: CloudFile, field: str, index: int, to: int) -> CloudFile:
     """An item at another place of its list."""
-    changed = {field: shifted(getattr(content, field), index, to)}
+    changed: dict[str, Any] = {field: shifted(getattr(content, field), index, to)}
     if field == "layers":
         own = content.layer_climates + (None,) * (len(content.layers) - len(content.layer_climates))
         changed["layer_climates"] = shifted(own, index, to)
-    return replace(content, **changed)
+    return put(content, **changed)
 
 
 def rename_model(content: CloudFile, index: int, name: str) -> CloudFile:
@@ -137,11 +142,12 @@ def _layer(layer: SkyLayer, old: str, new: str | None) -> SkyLayer:
         return layer
     skies = []
     for sky in layer.skies:
-        kept = [
-            (new if _name(model) == old else model, at)
-            for at, model in enumerate(sky.models)
-            if new is not None or _name(model) != old
-        ]
+        kept: list[tuple[CloudModel | str, int]] = []
+        for at, model in enumerate(sky.models):
+            if _name(model) != old:
+                kept.append((model, at))
+            elif new is not None:
+                kept.append((new, at))
         weights = tuple(sky.weights[at] for _, at in kept) if sky.weights else ()
         if not any(weights):
             weights = ()

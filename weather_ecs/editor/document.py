@@ -187,5 +187,5 @@ class Document:
         self._saved = self.saved_content = self.content
 
     def mark_unsaved(self) -> None:
-        """The file on disk is gone or another: what is here is nowhere else."""
+        """What is here is nowhere else: the file on disk is gone, or bad."""
         self._saved = None

@@ -6,10 +6,14 @@ import os
 from enum import Enum
 from pathlib import Path
 from time import monotonic
+from typing import NamedTuple
 
-from weather_ecs import load_clouds, save_clouds
+from weather_ecs.cloud_files import read_content
 from weather_ecs.editor.document import Content, Document
+from weather_ecs.editor.kept_text import kept_text
 from weather_ecs.editor.recent import Recent
+from weather_ecs.errors import WeatherError, WeatherFileError
+from weather_ecs.file_text import read_text, write_text
 
 LOOK_EVERY = 0.5  # s between two looks at a file on disk
 
@@ -22,26 +26,43 @@ class OnDisk(Enum):
     GONE = "gone"
 
 
+class News(NamedTuple):
+    """What `Files.follow` has to say, and whether it is bad."""
+
+    text: str
+    bad: bool = False
+
+
+class ChangedOnDiskError(WeatherError):
+    """A file that somebody else has written meanwhile: saving would undo that."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(f"{path}: was changed on disk; reload it, save anyway, or save as another")
+
+
 class Files:
     """The way between documents and disk.
 
-    Everything raises WeatherFileError or OSError and then leaves document and disk as they were:
+    Everything raises WeatherError or OSError and then leaves document and disk as they were:
 
         files.new(document)
         files.open(document, path)          # also for a file that is dropped on the window
         files.save(document)                # document.path has to be set, else use save_as
+        files.save(document, anyway=True)   # after ChangedOnDiskError, when the user wants it
         files.save_as(document, path)
-        if files.on_disk(document) is OnDisk.CHANGED: files.reload(document)   # once a frame
+        files.reload(document)              # one step of undo: nothing is lost by it
+        news = files.follow(document)       # once a frame; looks at the disk twice a second
+        if news is not None: shared.say(news.text, bad=news.bad)
         for path in files.recent.paths: ...
 
-    `reload` is one step of undo, so that nothing is lost by it. Ask about unsaved changes
-    (`document.dirty`) before `new` and `open`.
+    Ask about unsaved changes (`document.dirty`) before `new` and `open`. Saving keeps comments and
+    layout of what has not changed.
     """
 
     def __init__(self, recent: Recent | None = None) -> None:
         self.recent = Recent() if recent is None else recent
-        self._stamp: tuple[int, ...] | None = None
-        self._told = OnDisk.SAME
+        self._stamp: tuple[int, ...] | None = None  # of the file as the document knows it
+        self._seen: tuple[int, ...] | None = None  # of the file as it was looked at last
         self._next_look = 0.0
 
     def new(self, document: Document) -> None:
@@ -52,22 +73,32 @@ class Files:
     def open(self, document: Document, path: str | os.PathLike[str]) -> None:
         """Another file in place of what is there."""
         target = Path(path).absolute()
-        content = load_clouds(target)
-        document.reset(content, target, target.read_text(encoding="utf-8"))
-        self._noticed(document)
+        try:
+            stamp, text = _read(target)
+            content = read_content(str(target), text)
+        except WeatherFileError:
+            if not target.exists():
+                self.recent.remove(target)
+            raise
+        document.reset(content, target, text)
+        self._noticed(document, stamp)
         self.recent.add(target)
 
-    def save(self, document: Document) -> None:
+    def save(self, document: Document, *, anyway: bool = False) -> None:
         """Write the document to its file."""
         if document.path is None:
             raise FileNotFoundError("the document has no file yet")
+        if not anyway and self._compare(document) is OnDisk.CHANGED:
+            raise ChangedOnDiskError(document.path)
         self.save_as(document, document.path)
 
     def save_as(self, document: Document, path: str | os.PathLike[str]) -> None:
         """Write the document to a file, which is its own from now on."""
         target = Path(path).absolute()
-        save_clouds(target, document.content)
-        document.mark_saved(target, target.read_text(encoding="utf-8"))
+        content = document.content
+        text = kept_text(str(target), document.text, document.saved_content, content)
+        write_text(str(target), text)
+        document.mark_saved(target, text)
         self._noticed(document)
         self.recent.add(target)
 
@@ -75,11 +106,12 @@ class Files:
         """Take what the file has become; the step can be undone."""
         if document.path is None:
             return
-        content = load_clouds(document.path)
-        text = document.path.read_text(encoding="utf-8")
-        document.apply(f"Reload {document.name}", content)
+        stamp, text = _read(document.path)
+        content = read_content(str(document.path), text)
+        document.end_gesture()
+        document.apply(f"reload of {document.name}", content)
         document.mark_saved(document.path, text)
-        self._noticed(document)
+        self._noticed(document, stamp)
 
     def on_disk(self, document: Document) -> OnDisk:
         """What has become of the file; looks only now and then, and tells everything once."""
@@ -87,23 +119,61 @@ class Files:
             return OnDisk.SAME
         self._next_look = monotonic() + LOOK_EVERY
         stamp = stamp_of(document.path)
-        if stamp == self._stamp:
-            self._told = OnDisk.SAME
+        if stamp == self._seen:
             return OnDisk.SAME
-        news = OnDisk.GONE if stamp is None else OnDisk.CHANGED
-        document.mark_unsaved()
-        self._stamp = stamp
-        return news
+        self._seen = stamp
+        return self._compare(document)
 
-    def _noticed(self, document: Document) -> None:
-        self._stamp = None if document.path is None else stamp_of(document.path)
-        self._told = OnDisk.SAME
+    def follow(self, document: Document) -> News | None:
+        """Keep up with the file: what has changed is taken, unless something here is unsaved."""
+        found = self.on_disk(document)
+        if found is OnDisk.SAME:
+            return None
+        if found is OnDisk.GONE:
+            document.mark_unsaved()
+            return News(f"{document.path} is gone; saving writes it again", bad=True)
+        if document.dirty:
+            return News(f"{document.name} was changed on disk, and here: reload or save?", bad=True)
+        try:
+            self.reload(document)
+        except (WeatherError, OSError) as error:
+            document.mark_unsaved()
+            return News(f"{error}; what was there is kept", bad=True)
+        return News(f"{document.name} was changed on disk and read again")
+
+    def _compare(self, document: Document) -> OnDisk:
+        """Whether the file says something else than the document last knew it to say."""
+        if document.path is None:
+            return OnDisk.SAME
+        stamp = stamp_of(document.path)
+        if stamp is None:
+            return OnDisk.GONE
+        if stamp == self._stamp:
+            return OnDisk.SAME
+        try:
+            same = read_text(str(document.path)) == document.text
+        except WeatherFileError:
+            same = False
+        if same:
+            self._stamp = stamp
+        return OnDisk.SAME if same else OnDisk.CHANGED
+
+    def _noticed(self, document: Document, stamp: tuple[int, ...] | None = None) -> None:
+        """The document knows what its file says."""
+        if stamp is None and document.path is not None:
+            stamp = stamp_of(document.path)
+        self._stamp = self._seen = stamp
 
 
 def stamp_of(path: Path) -> tuple[int, ...] | None:
     """What changes with a file; None where there is none."""
     try:
         found = path.stat()
-    except OSError:
+    except (OSError, ValueError):
         return None
     return found.st_mtime_ns, found.st_size, found.st_ino
+
+
+def _read(path: Path) -> tuple[tuple[int, ...] | None, str]:
+    """A file's stamp, taken first so that no later change is missed, and its text."""
+    return stamp_of(path), read_text(str(path))
