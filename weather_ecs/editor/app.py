@@ -12,11 +12,15 @@ import pyglet
 from imgui_bundle import imgui
 
 from weather_ecs.editor import panels, theme
+from weather_ecs.editor.dialogs import Dialogs
 from weather_ecs.editor.document import Document
-from weather_ecs.editor.files import Files
 from weather_ecs.editor.gui import Gui
+from weather_ecs.editor.help_page import draw_help
 from weather_ecs.editor.layout import Box, boxes, part_of, workspace_of
+from weather_ecs.editor.menu_table import WORKSPACES, menus_of
+from weather_ecs.editor.menus import draw_bar, press_keys
 from weather_ecs.editor.panels import Entry
+from weather_ecs.editor.session import Session
 from weather_ecs.editor.shared import Panel, Shared
 
 TITLE = "Weather editor"
@@ -40,8 +44,9 @@ class EditorWindow(pyglet.window.Window):
             *size, caption=TITLE, resizable=True, vsync=True, visible=False, file_drops=True
         )
         self.set_minimum_size(*SMALLEST)
-        self.document, self.files = Document(), Files()
         self.shared = Shared(moderngl.get_context())
+        self.session = Session(self.shared)
+        self.dialogs = Dialogs()
         self.gui = Gui(self)
         self.entries: list[tuple[Entry, Panel]] = []
         for entry in panels.PANELS:
@@ -49,9 +54,15 @@ class EditorWindow(pyglet.window.Window):
         self._last = time.perf_counter()
         self._ready = True
         self._caption = ""
-        if path is not None:
-            self.files.open(self.document, path)
+        self._helps = False
+        if path is not None and not self.session.load(Path(path)):
+            self.session.document.path = None
         self.set_visible(True)
+
+    @property
+    def document(self) -> Document:
+        """What is being edited."""
+        return self.session.document
 
     def play(self) -> None:
         """Run until the window is closed."""
@@ -93,13 +104,35 @@ class EditorWindow(pyglet.window.Window):
             update = getattr(panel, "update", None)
             if update is not None and workspace_of(entry.place) == self.shared.workspace:
                 update(self.document, self.shared)
-        self._lay_out()
+        self._draw_all()
         screen = self.shared.gl.detect_framebuffer(0)
         screen.use()
         if width > 0 and height > 0:
             screen.viewport = (0, 0, width, height)
             screen.clear(*theme.BACK)
         self.gui.end(seen=width > 0 and height > 0)
+        if self.session.closing:
+            pyglet.clock.schedule_once(lambda _dt: self.shut(), 0.0)
+
+    def _draw_all(self) -> None:
+        """Menus, panels, what asks; then what keys have called for."""
+        self.session.look_at_disk()
+        menus = menus_of(self)
+        self.shared.workspace = draw_bar(menus, WORKSPACES, self.shared.workspace)
+        self._lay_out()
+        self.dialogs.draw(self.session)
+        self._helps = draw_help(menus, self._helps)
+        if not imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
+            press_keys(menus)
+        self.shared.selection.clamp(self.document)
+
+    def toggle_help(self) -> None:
+        """Show the page of keys, or put it away."""
+        self._helps = not self._helps
+
+    def toggle_fullscreen(self) -> None:
+        """The whole screen, or a window."""
+        self.set_fullscreen(not self.fullscreen)
 
     def _show_name(self) -> None:
         caption = f"{'• ' if self.document.dirty else ''}{self.document.name} - {TITLE}"
@@ -115,7 +148,7 @@ class EditorWindow(pyglet.window.Window):
             if workspace_of(entry.place) == self.shared.workspace
         ]
         below = any(part_of(entry.place) == "below" for entry, _ in here)
-        parts = boxes(size.x, size.y, imgui.get_frame_height() + 8.0, below=below)
+        parts = boxes(size.x, size.y, imgui.get_frame_height() + 12.0, below=below)
         for name, box in parts.items():
             mine = [(entry, panel) for entry, panel in here if part_of(entry.place) == name]
             if name == "status":
@@ -159,8 +192,20 @@ class EditorWindow(pyglet.window.Window):
                     color = theme.BAD if self.shared.note_bad else theme.TEXT
                     imgui.text_colored(theme.vec4(color), self.shared.note)
 
+    # Events
+
     def on_close(self) -> None:
-        self.shut()
+        """The question about unsaved changes comes first."""
+        if self._ready:
+            self.session.quit()
+
+    def on_key_press(self, symbol: int, modifiers: int) -> None:
+        """Escape closes nothing here."""
+
+    def on_file_drop(self, x: int, y: int, paths: list[str]) -> None:
+        """The first file that was let go over the window is opened."""
+        if self._ready and paths:
+            self.session.open_path(Path(paths[0]))
 
 
 class _Window:

@@ -46,7 +46,7 @@ _COLORS: dict[imgui.Col_, Color] = {
     _C.scrollbar_grab_hovered: HOVER,
     _C.scrollbar_grab_active: ACCENT_LOW,
     _C.check_mark: ACCENT,
-    _C.slider_grab: ACCENT,
+    _C.slider_grab: (0.235, 0.455, 0.680, 1.0),
     _C.slider_grab_active: (0.45, 0.72, 0.98, 1.0),
     _C.button: FIELD,
     _C.button_hovered: HOVER,

@@ -34,8 +34,8 @@ class Entry(NamedTuple):
 
 PANELS: list[Entry] = [
     Entry(Place.CLOUD_LEFT, "panels.cloud", "CloudPanel"),
-    Entry(Place.CLOUD_RIGHT, "panels.seed", "SeedPanel", 0.52),
-    Entry(Place.CLOUD_RIGHT, "panels.root", "RootPanel", 0.48),
+    Entry(Place.CLOUD_RIGHT, "panels.seed", "SeedPanel", 0.475),
+    Entry(Place.CLOUD_RIGHT, "panels.root", "RootPanel", 0.525),
     Entry(Place.CLOUD_VIEW, "cloud_view", "CloudView"),
     Entry(Place.CLOUD_BELOW, "gallery", "Gallery"),
 ]

@@ -127,13 +127,18 @@ def generate(shared: Shared) -> None:
     """Which of the model's clouds the view shows, and another one."""
     wide = imgui.get_content_region_avail().x
     if imgui.button("Generate again", imgui.ImVec2(0.52 * wide, 0.0)):
-        shared.number = random.SystemRandom().randrange(100_000)
+        another_number(shared)
     tip_of_last("Another cloud of this model, by another random seed")
     imgui.same_line()
     imgui.set_next_item_width(-1.0)
     number = imgui.input_int("##number", shared.number, 1, 10)[1]
     shared.number = min(max(number, 0), MOST_NUMBER)
     tip_of_last("The random seed, 0 to 2147483647: the same one always gives the same cloud")
+
+
+def another_number(shared: Shared) -> None:
+    """A random seed that chance picks; short enough to be written down."""
+    shared.number = random.SystemRandom().randrange(100_000)
 
 
 def new_model_menu(document: Document, shared: Shared) -> None:

@@ -1,0 +1,140 @@
+"""`Session`: the document, its file, and the questions that come between."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from weather_ecs.editor.document import Document
+from weather_ecs.editor.files import Files, OnDisk
+from weather_ecs.editor.shared import Shared
+from weather_ecs.errors import WeatherError
+
+Act = Callable[[], object]
+
+
+class Session:
+    """New, open, save and quit, each of them after the question about unsaved changes.
+
+    What is to be asked stands in `question`, `trouble` and `wants_path`; `dialogs` shows it.
+    """
+
+    def __init__(self, shared: Shared, files: Files | None = None) -> None:
+        self.shared = shared
+        self.document = Document()
+        self.files = Files() if files is None else files
+        self.question: Act | None = None  # what was asked for and would lose changes
+        self.trouble = ""  # what went wrong, to be read
+        self.wants_path: tuple[str, Callable[[Path], None], bool] | None = None
+        self.changed_outside = False  # the file is another one, and so is what is here
+        self.closing = False  # the window may close
+
+    # What menus call
+
+    def new(self) -> None:
+        """An empty file."""
+        self._unless_unsaved(self._new)
+
+    def open(self) -> None:
+        """Ask for a file and open it."""
+        self._unless_unsaved(lambda: self._ask_path("Open", self.load, saves=False))
+
+    def open_path(self, path: Path) -> None:
+        """Open this file: a recent one, or one that was dropped on the window."""
+        self._unless_unsaved(lambda: self.load(path))
+
+    def save(self, then: Act | None = None) -> None:
+        """Write the file; one without a name asks for it first. `then` follows what went well."""
+        if self.document.path is None:
+            self.save_as(then)
+        else:
+            self._write(self.document.path, then)
+
+    def save_as(self, then: Act | None = None) -> None:
+        """Ask for a path and write there."""
+        self._ask_path("Save as", lambda path: self._write(path, then), saves=True)
+
+    def reload(self) -> None:
+        """Take what the file has become."""
+        self.changed_outside = False
+        name = self.document.name
+        if self._tried(lambda: self.files.reload(self.document)):
+            self.shared.say(f"{name} has changed on disk and was read again")
+
+    def quit(self) -> None:
+        """Close the editor."""
+        self._unless_unsaved(self._quit)
+
+    # Answers
+
+    def answer(self, word: str) -> None:
+        """To the question about unsaved changes: save, drop or cancel."""
+        act, self.question = self.question, None
+        if act is None:
+            return
+        if word == "save":
+            self.save(then=act)
+        elif word == "drop":
+            act()
+
+    def load(self, path: Path) -> bool:
+        """Open a file whatever is lost; one that is bad leaves everything as it is."""
+        if not self._tried(lambda: self.files.open(self.document, path)):
+            return False
+        self.changed_outside = False
+        self.shared.selection.clamp(self.document)
+        self.shared.number = 0
+        self.shared.workspace = "cloud" if self.document.content.models else "sky"
+        self.shared.say(f"Opened {path}")
+        return True
+
+    def look_at_disk(self) -> None:
+        """Once a frame: what others have done to the file."""
+        unsaved = self.document.dirty
+        news = self.files.on_disk(self.document)
+        if news is OnDisk.GONE:
+            self.shared.say(
+                f"{self.document.name} is no longer there; saving writes it again", bad=True
+            )
+        elif news is OnDisk.CHANGED and unsaved:
+            self.changed_outside = True
+        elif news is OnDisk.CHANGED:
+            self.reload()
+
+    # How
+
+    def _unless_unsaved(self, act: Act) -> None:
+        if self.document.dirty:
+            self.question = act
+        else:
+            act()
+
+    def _ask_path(self, title: str, done: Callable[[Path], object], *, saves: bool) -> None:
+        self.wants_path = title, lambda path: (done(path), None)[1], saves
+
+    def _new(self) -> None:
+        self.files.new(self.document)
+        self.changed_outside = False
+        self.shared.selection.clamp(self.document)
+        self.shared.workspace = "cloud"
+
+    def _write(self, path: Path, then: Act | None) -> None:
+        if self._tried(lambda: self.files.save_as(self.document, path)):
+            self.changed_outside = False
+            self.shared.say(f"Saved {path}")
+            if then is not None:
+                then()
+
+    def _quit(self) -> None:
+        self.closing = True
+
+    def _tried(self, act: Act) -> bool:
+        try:
+            act()
+        except WeatherError as error:
+            self.trouble = str(error)
+        except OSError as error:
+            self.trouble = f"{error.filename or self.document.name}: {error.strerror or error}"
+        else:
+            return True
+        return False
