@@ -34,6 +34,7 @@ KEPT_DTYPE = np.dtype(
         ("state", "f4", 5),  # growth, mode, darkness, shear
         ("seen", "i8"),  # draw at which it was last in the picture
         ("real", "?"),  # drawn with billboards at the last draw
+        ("large", "?"),  # and too large for a picture, not only waiting for one
     ]
 )
 
@@ -114,8 +115,8 @@ class Impostors:
         has &= kept["shape"] == versions[:, 0]
         size = scene.pixels
         near = scene.away < CLOSE * scene.reach
-        # Once drawn with billboards, a cloud stays so until it is clearly smaller.
-        limit = largest * np.where(kept["real"], 0.85, 1.0)
+        # Once too large for a picture, a cloud stays so until it is clearly smaller.
+        limit = largest * np.where(kept["large"], 0.85, 1.0)
         wants = scene.visible & (near | (size > limit))
         if scene.parallel:
             wants = near = scene.visible
@@ -129,7 +130,7 @@ class Impostors:
         real = candidates[fits]
         is_real = np.zeros(len(kept), bool)
         is_real[real] = True
-        kept["real"] = is_real
+        kept["real"], kept["large"] = is_real, wants
 
         must = np.flatnonzero(scene.visible & ~has & ~is_real)
         stale = ~near & (error > 1.0) & (scene.visible | ~has)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import groupby
 from typing import NamedTuple, Protocol
 
 import moderngl
@@ -14,17 +13,13 @@ from weather_ecs.frame import ViewData
 from weather_ecs.gpu.cloud_impostors import Impostors, Plan
 from weather_ecs.gpu.cloud_kit import make_kit
 from weather_ecs.gpu.cloud_order import CloudOrder
-from weather_ecs.gpu.cloud_programs import (
-    BILLBOARDS,
-    QUADS,
-    SOFT,
-    UNITS,
-    camera_matrix,
-)
+from weather_ecs.gpu.cloud_programs import UNITS, camera_matrix
 from weather_ecs.gpu.cloud_scene import CloudScene, haze_of, rows_of, scene_of, surround_of
+from weather_ecs.gpu.cloud_sequence import BILLBOARDS, FADING, LIT, PICTURE, SOFT, Items
 from weather_ecs.gpu.cloud_shadow_pass import CloudShadowPass
 from weather_ecs.gpu.cloud_store import CloudStore
-from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.gpu.flash import lit_by_flashes
+from weather_ecs.gpu.shader_loader import ShaderLoader
 from weather_ecs.physics.cloud_light import Surround
 
 SOFT_HEIGHT = 400.0  # m over the ground, below which billboards are soft where they meet the scene
@@ -165,7 +160,7 @@ class CloudPass:
         self, scene: CloudScene, store: CloudStore, impostors: Impostors, plan: Plan, largest: int
     ) -> int:
         programs = self._programs
-        programs.haze(BILLBOARDS, 0.0)
+        programs.haze(0.0)
         self._ctx.enable_only(moderngl.BLEND)
         self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
         refreshed = 0
@@ -177,23 +172,24 @@ class CloudPass:
                 continue
             tile, matrix = placed
             impostors.atlas.begin(tile)
-            programs.aim(BILLBOARDS, matrix.T.tobytes())
-            self._render(BILLBOARDS, row)
+            programs.aim(matrix.T.tobytes(), BILLBOARDS)
+            programs.run(BILLBOARDS, int(self._begins[row]), int(self._begins[row + 1]))
             refreshed += 1
-        programs.haze(BILLBOARDS, 1.0)
+        programs.haze(1.0)
         return refreshed
-
-    def _render(self, key: ProgramKey, row: int) -> None:
-        """Draw the billboards of a row."""
-        self._programs.billboards(key, int(self._begins[row]), int(self._begins[row + 1]))
 
     def meets_scene(self, view: ViewData) -> bool:
         """Whether the last update has left billboards that may meet the scene."""
+        return bool(self._meet_scene(view).any())
+
+    def _meet_scene(self, view: ViewData) -> NDArray[np.bool_]:
+        """Which of the clouds that are drawn with billboards may, in the order of drawing."""
         scene, real = self._scene, self._real
         near = scene.away[real] - scene.reach[real] < SOFT_REACH
         height = scene.center[real, 1] + scene.base[real] + view.position[1]
         low = height < view.frame.profile.ground + SOFT_HEIGHT * view.frame.cloud_look.softness
-        return bool((near & low).any())
+        meet: NDArray[np.bool_] = near & low
+        return meet
 
     def draw(
         self,
@@ -207,61 +203,57 @@ class CloudPass:
         depth: the scene's, where billboards may meet it; origin: the viewport's, pixels; between:
         something that stands among them.
         """
-        programs = self._programs
+        programs, scene = self._programs, self._scene
         programs.set_origin(*origin)
         self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
         matrix = camera_matrix(view)
-        key = BILLBOARDS
         if depth is not None:
-            key = SOFT
             depth.use(UNITS["scene_depth"])
-            programs.haze(SOFT, 1.0)
-        programs.aim(key, matrix)
-        programs.aim(QUADS, matrix)
-        impostors = self._observers[view.key]
-        has = impostors.kept["tile"][self._drawn, 2] > 0
-        kinds = self._by_billboards[self._by_billboards | has]
-        pictures = has & ~self._by_billboards
-        which = self._drawn[pictures]
-        if len(which):
-            quads = impostors.quads(self._scene, which, self._haze[which])
-            quads[:, 0, 3] *= self._shares[pictures]
-            self._quads.write(quads)
-            self._quads.texture.use(UNITS["cloud_quads"])
-        begins, ends = self._begins[: len(self._real)], self._begins[1 : len(self._real) + 1]
+        programs.aim(matrix)
+        items = self._items(view, depth is not None)
         if between is None:
-            self._sequence(key, kinds, begins, ends, np.ones(len(which), bool))
+            programs.draw(items)
         else:
-            scene = self._scene
+            middles = items.begins.copy()
+            bills = self._by_billboards
+            middles[bills] += self._stream.beyond(scene, self._real, between.distance)
+            which = self._drawn[~bills]
             beyond = scene.away[which] - INSIDE * scene.reach[which] > between.distance
-            middles = begins + self._stream.beyond(scene, self._real, between.distance)
-            self._sequence(key, kinds, begins, middles, beyond)
+            middles[~bills] += beyond & (items.ends > items.begins)[~bills]
+            before, after = items.parted(middles)
+            programs.draw(before)
             between.draw()
             self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-            self._sequence(key, kinds, middles, ends, ~beyond)
+            programs.draw(after)
         if view.frame.cloud_look.rays:
-            self._rays.draw(self._scene, self._store, self._real, matrix, self._rows)
+            self._rays.draw(scene, self._store, self._real, matrix, self._rows)
         if self._is_inside:
             self._inside.draw(view.projection)
         self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
 
-    def _sequence(
-        self, key: ProgramKey, kinds: NDArray, begins: NDArray, ends: NDArray, shown: NDArray
-    ) -> None:
-        """Draw in order: of each row a stretch of the stream, and the pictures that are shown."""
-        row = quad = 0
-        for billboards, group in groupby(kinds.tolist()):
-            count = len(list(group))
-            if billboards:
-                for each in range(row, row + count):
-                    self._programs.billboards(key, int(begins[each]), int(ends[each]))
-                row += count
-            else:
-                for some, run in groupby(shown[quad : quad + count].tolist()):
-                    length = len(list(run))
-                    if some:
-                        self._programs.quads(quad, length)
-                    quad += length
+    def _items(self, view: ViewData, soft: bool) -> Items:
+        """All that is drawn, back to front; writes the rows of the pictures."""
+        scene, impostors, bills = self._scene, self._observers[view.key], self._by_billboards
+        kinds = np.empty(len(self._drawn), np.intp)
+        begins, ends = np.zeros_like(kinds), np.zeros_like(kinds)
+        rows = len(self._real)
+        kinds[bills] = np.where(self._meet_scene(view) & soft, SOFT, BILLBOARDS)
+        begins[bills], ends[bills] = self._begins[:rows], self._begins[1 : rows + 1]
+        pictures = ~bills & (impostors.kept["tile"][self._drawn, 2] > 0)
+        which = self._drawn[pictures]
+        count = np.arange(len(which))
+        begins[pictures], ends[pictures] = count, count + 1
+        kinds[~bills] = PICTURE
+        if len(which):
+            quads = impostors.quads(scene, which, self._haze[which])
+            quads[:, 0, 3] *= self._shares[pictures]
+            self._quads.write(quads)
+            self._quads.texture.use(UNITS["cloud_quads"])
+            kinds[pictures] = np.where(quads[:, 1, 3] < 1.0, FADING, PICTURE)
+            if not view.frame.cloud_look.plain:
+                lit = lit_by_flashes(view, scene.center[which], scene.reach[which])
+                kinds[pictures] = np.where(lit | (quads[:, 2, 3] > 0.0), LIT, kinds[pictures])
+        return Items(kinds, begins, ends)
 
     def _use_textures(self, store: CloudStore, impostors: Impostors) -> None:
         self._programs.images.use(UNITS["cloud_images"])

@@ -9,15 +9,30 @@ from weather_ecs.frame import ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.cloud_blocks import CLOUD_VIEW
 from weather_ecs.gpu.cloud_images import hulls, image_array
+from weather_ecs.gpu.cloud_sequence import BILLBOARDS, FADING, LIT, PICTURE, SOFT, Items, runs
 from weather_ecs.gpu.flash import cloud_lights
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.cloud_images import CLOUD_IMAGES
 from weather_ecs.physics.cloud_light import Surround
 
 IMAGES = ("IMAGES", len(CLOUD_IMAGES))
-BILLBOARDS = ProgramKey(vertex="cloud.vert", fragment="cloud.frag", defines=(IMAGES,))
-SOFT = ProgramKey(vertex="cloud.vert", fragment="cloud.frag", defines=(IMAGES, "SOFT"))
-QUADS = ProgramKey(vertex="cloud_quad.vert", fragment="cloud_quad.frag")
+
+
+def _billboards(*defines: str) -> ProgramKey:
+    return ProgramKey(vertex="cloud.vert", fragment="cloud.frag", defines=(IMAGES, *defines))
+
+
+def _pictures(*defines: str) -> ProgramKey:
+    return ProgramKey(vertex="cloud_quad.vert", fragment="cloud_quad.frag", defines=defines)
+
+
+KEYS = {
+    BILLBOARDS: _billboards(),
+    SOFT: _billboards("SOFT"),
+    PICTURE: _pictures(),
+    FADING: _pictures("FADING"),
+    LIT: _pictures("FADING", "FLASHES"),
+}
 # Units of the samplers; the same in all programs.
 UNITS = {
     "cloud_images": 0,
@@ -37,8 +52,8 @@ class CloudPrograms:
     def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader) -> None:
         self.images = image_array(ctx)
         self._block = BlockBuffer(ctx, CLOUD_VIEW)
-        self._programs = {key: shaders.program(key) for key in (BILLBOARDS, SOFT, QUADS)}
-        self._arrays = {key: ctx.vertex_array(p, []) for key, p in self._programs.items()}
+        self._programs = {kind: shaders.program(key) for kind, key in KEYS.items()}
+        self._arrays = {kind: ctx.vertex_array(p, []) for kind, p in self._programs.items()}
         for program in self._programs.values():
             for name, unit in UNITS.items():
                 if name in program:
@@ -46,24 +61,29 @@ class CloudPrograms:
             if "cloud_hulls" in program:
                 program["cloud_hulls"].write(hulls().tobytes())
 
-    def aim(self, key: ProgramKey, matrix: bytes) -> None:
+    def aim(self, matrix: bytes, *kinds: int) -> None:
         """From camera-relative places to the picture; 16 floats, column by column."""
-        self._programs[key]["cloud_matrix"].write(matrix)
+        for kind in kinds or KEYS:
+            self._programs[kind]["cloud_matrix"].write(matrix)
 
-    def haze(self, key: ProgramKey, share: float) -> None:
+    def haze(self, share: float) -> None:
         """1, or 0 while impostors are made: these get theirs when they are drawn."""
-        self._programs[key]["cloud_hazed"] = share
+        for kind in (BILLBOARDS, SOFT):
+            self._programs[kind]["cloud_hazed"] = share
 
-    def billboards(self, key: ProgramKey, begin: int, end: int) -> None:
-        """Draw a stretch of the stream."""
+    def draw(self, items: Items) -> None:
+        """Draw what there is, in its order."""
+        for kind, begin, end in runs(items):
+            self.run(kind, begin, end)
+
+    def run(self, kind: int, begin: int, end: int) -> None:
+        """Draw a stretch of the stream, or of the rows of pictures."""
         if end > begin:
-            self._programs[key]["cloud_first"] = begin
-            self._arrays[key].render(moderngl.TRIANGLE_STRIP, vertices=8, instances=end - begin)
-
-    def quads(self, first: int, count: int) -> None:
-        """Draw so many impostors from the row `first` on."""
-        self._programs[QUADS]["cloud_first"] = first
-        self._arrays[QUADS].render(moderngl.TRIANGLE_STRIP, vertices=4, instances=count)
+            self._programs[kind]["cloud_first"] = begin
+            corners = 8 if kind in (BILLBOARDS, SOFT) else 4
+            self._arrays[kind].render(
+                moderngl.TRIANGLE_STRIP, vertices=corners, instances=end - begin
+            )
 
     def light(self, view: ViewData, light: Surround) -> None:
         """Fill and bind the block for a view."""

@@ -7,13 +7,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from weather_ecs.frame import FrameData
+from weather_ecs.frame import FrameData, ViewData
 from weather_ecs.physics.lightning import CHANNEL, falloff
 
 HAZE = 0.12  # share of the light at the camera that the fog there shows
 VEIL = 0.15  # and that rain shows so deep that nothing shines through
 CLOUD_LIGHTS = 4  # flashes that light clouds each from its own place
 CLOUD_CORE = 1100.0  # m, within which a flash in a cloud does not fall off
+LEAST = 0.0005  # linear; less light than that is not seen on a cloud
 CLOUD_GAIN = 1.2  # of a flash's light, next to it
 
 
@@ -51,6 +52,16 @@ def cloud_lights(frame: FrameData, position: tuple[float, float, float]) -> NDAr
         color = np.array(frame.lightning.color)
         found[1, :, :3] = CLOUD_GAIN * rows["light"][:, None] * color
     return found
+
+
+def lit_by_flashes(view: ViewData, centers: NDArray, reach: NDArray) -> NDArray[np.bool_]:
+    """(n,) whether clouds, places (n, 3) from the camera and m, show any of the flashes' light."""
+    lit = np.zeros(len(centers), bool)
+    places, colors = cloud_lights(view.frame, view.position)
+    for place, color in zip(places, colors, strict=True):
+        away = np.maximum(np.linalg.norm(centers - place[:3], axis=1) - reach, 0.0)
+        lit |= color[:3].max() * (1.0 + away * away * place[3]) ** -1.5 > LEAST
+    return lit
 
 
 def block_flash(flash: Flash | None) -> tuple[tuple[float, ...], tuple[float, ...]]:

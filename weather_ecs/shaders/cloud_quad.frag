@@ -1,31 +1,38 @@
-// A cloud's picture, or two of them while one gives way to the other; premultiplied, encoded.
+// A cloud's picture; with FADING two of them, while one gives way to the other; premultiplied,
+// encoded. FLASHES: in the light of lightning. These are programs apart: where the CPU draws, what
+// is not needed costs as much as what is.
+#ifdef FLASHES
 #include "cloud_flash.glsl"
+#endif
 uniform sampler2D cloud_atlas;
 
 in vec2 vs_uv;
+flat in vec4 vs_haze;  // encoded and times its share; the share
+flat in vec2 vs_share;  // opacity, and share of the newer picture
+#ifdef FADING
 in vec2 vs_before;
 flat in vec4 vs_frame;
-flat in vec4 vs_haze;
-flat in vec2 vs_share;
+#endif
+#ifdef FLASHES
 flat in float vs_flash;
 in vec3 vs_from;
+#endif
 out vec4 color;
 
 void main()
 {
     vec4 texel = texture(cloud_atlas, vs_uv);
-    if (vs_share.y < 1.0) {
-        vec2 at = vs_before;
-        vec2 inside = step(abs(at - 0.5), vec2(0.5));
-        vec4 before = texture(cloud_atlas, vs_frame.xy + vs_frame.zw * at);
-        texel = mix(before * (inside.x * inside.y), texel, vs_share.y);
-    }
-    if ((cloud_flashes > 0 || vs_flash > 0.0) && texel.a > 0.0) {
-        // What the picture shows darker is darker in this light too.
-        vec3 shown = min(texel.rgb / texel.a, vec3(1.0));
-        vec3 flash = own_flash(vs_flash, vec3(0.7)) + near_flash(vs_from);
-        flash *= 0.45 + 1.1 * shown.g;
-        texel.rgb = pow(pow(shown, vec3(2.2)) + flash, vec3(1.0 / 2.2)) * texel.a;
-    }
-    color = vec4(mix(texel.rgb, vs_haze.rgb * texel.a, vs_haze.w), texel.a) * vs_share.x;
+#ifdef FADING
+    vec2 inside = step(abs(vs_before - 0.5), vec2(0.5));
+    vec4 before = texture(cloud_atlas, vs_frame.xy + vs_frame.zw * vs_before);
+    texel = mix(before * (inside.x * inside.y), texel, vs_share.y);
+#endif
+#ifdef FLASHES
+    // What the picture shows darker is darker in this light too.
+    vec3 shown = min(texel.rgb / max(texel.a, 0.004), vec3(1.0));
+    vec3 flash = own_flash(vs_flash, vec3(0.7)) + near_flash(vs_from);
+    flash *= 0.45 + 1.1 * shown.g;
+    texel.rgb = pow(pow(shown, vec3(2.2)) + flash, vec3(1.0 / 2.2)) * texel.a;
+#endif
+    color = vec4(texel.rgb * (1.0 - vs_haze.w) + vs_haze.rgb * texel.a, texel.a) * vs_share.x;
 }

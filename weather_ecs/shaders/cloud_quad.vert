@@ -4,12 +4,16 @@ uniform int cloud_first;
 uniform mat4 cloud_matrix;
 
 out vec2 vs_uv;
+flat out vec4 vs_haze;
+flat out vec2 vs_share;
+#ifdef FADING
 out vec2 vs_before;  // place in the older picture
 flat out vec4 vs_frame;  // the older picture's frame
-flat out vec4 vs_haze;
-flat out vec2 vs_share;  // opacity, and share of the newer picture
+#endif
+#ifdef FLASHES
 flat out float vs_flash;
 out vec3 vs_from;  // place from the camera, m
+#endif
 
 void main()
 {
@@ -19,12 +23,16 @@ void main()
     vec4 c = texelFetch(cloud_quads, ivec2(2, row), 0);  // half of the height, flash
     vec4 uv = texelFetch(cloud_quads, ivec2(3, row), 0);  // corner and size
     vs_haze = texelFetch(cloud_quads, ivec2(4, row), 0);
+    vs_haze.rgb *= vs_haze.w;
     vs_share = vec2(a.w, b.w);
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     vec3 p = a.xyz + b.xyz * corner.x + c.xyz * corner.y;
+#ifdef FLASHES
     vs_from = p;
     vs_flash = c.w;
+#endif
     vs_uv = uv.xy + uv.zw * (corner * 0.5 + 0.5);
+#ifdef FADING
     vs_before = vec2(0.0);
     vs_frame = vec4(0.0);
     if (b.w < 1.0) {
@@ -39,6 +47,7 @@ void main()
         vs_before = at * 0.5 + 0.5;
         vs_frame = vec4(d.w, e.w, f.w, f.w);
     }
+#endif
     gl_Position = cloud_matrix * vec4(p, 1.0);
     gl_Position.z = min(gl_Position.z, 0.999999 * gl_Position.w);
 }

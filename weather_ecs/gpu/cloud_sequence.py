@@ -1,0 +1,38 @@
+"""What is drawn of the clouds, back to front, as runs that one call draws."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+# How an item is drawn. Billboards count in the stream, pictures in the rows of quads.
+BILLBOARDS, SOFT, PICTURE, FADING, LIT = range(5)
+
+
+class Items(NamedTuple):
+    """Clouds in the order of drawing, (n,) each; an item from 9 to 9 draws nothing."""
+
+    kinds: NDArray[np.intp]
+    begins: NDArray[np.intp]
+    ends: NDArray[np.intp]
+
+    def parted(self, middles: NDArray[np.intp]) -> tuple[Items, Items]:
+        """What of each comes before its middle, and what after."""
+        return self._replace(ends=middles), self._replace(begins=middles)
+
+
+def runs(items: Items) -> Iterator[tuple[int, int, int]]:
+    """(kind, begin, end) of neighbours of one kind that follow on each other."""
+    some = items.ends > items.begins
+    kinds, begins, ends = (part[some] for part in items)
+    if not len(kinds):
+        return
+    new = (kinds[1:] != kinds[:-1]) | (begins[1:] != ends[:-1])
+    firsts = np.flatnonzero(np.concatenate([[True], new]))
+    lasts = np.append(firsts[1:], len(kinds)) - 1
+    yield from zip(
+        kinds[firsts].tolist(), begins[firsts].tolist(), ends[lasts].tolist(), strict=True
+    )
