@@ -48,6 +48,7 @@ FLASH_TIME = 2.5  # s of weather after a strike in which its flash may go on
 STRIKE_AHEAD, SPREAD = 900.0, 0.3  # m and rad, of a strike that the player calls
 MARK, MARKS = 2.0, 60  # s, and how many of them are kept
 HEARD_FROM = 1.0  # m that the player's ears move before the weather is told
+OPENING = 0.25, 0.25  # state and cover of the sky that a game begins under, whatever it rains
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 SKY_LEAST, SKY_SHARE = 0.02, 0.20  # cover of the sky at large: the rain brings its own clouds
 CLOUDS_FROM_TO = 700.0, 2900.0  # m, in which one comes out of them
@@ -96,6 +97,10 @@ class Game:
         if metar is not None or self._has_whole_play:
             # Theirs is to count from the first frame on.
             self.mood.put(replace(self.mood.current, rain_rate=0.0), METAR)
+        elif tour is None and preset in PRESETS and preset not in AIRS:
+            # A shower ahead to walk into, and sun here.
+            state, overcast = OPENING
+            self.mood.put(replace(self.mood.current, state=state, overcast=overcast), preset)
         compared = self._is_compared
         self.sky = SkyChanger(draw=not compared, runs=tour is None, rainbow=not compared)
         self.light = Light()  # of the last update

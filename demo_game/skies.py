@@ -11,13 +11,13 @@ from weather_ecs.components import Atmosphere
 
 Color = tuple[float, float, float]
 
-LATITUDE = 45.0  # degrees north
+LATITUDE = 50.0  # degrees north
 DAY = 86_400.0  # s
 LEAST_HEIGHT = 0.06  # sine, of what casts shadows: long ones find no end
 SEEN = 0.15  # of the light on level ground of a bright day, below which the game shows more of it
 MOST_EXPOSURE = 5.0
 LAMPS_DARK, LAMPS_LIGHT = 0.25, 0.85  # light on level ground between which lamps are turned up
-LAMPS_LEAST = 0.25
+LAMPS_LEAST = 0.04  # by day
 
 
 @dataclass(frozen=True)
@@ -30,8 +30,9 @@ class TimeOfDay:
 
 # A day of March before the night of a full moon, from the afternoon on; the key goes round.
 TIMES = (
-    TimeOfDay("afternoon", "2025-03-13T15:30:00Z"),  # the sun 25 degrees high, behind one's left
-    TimeOfDay("evening", "2025-03-13T17:10:00Z"),
+    # The sun 29 degrees high behind who looks along the path: a rainbow stands in rain to the right.
+    TimeOfDay("afternoon", "2025-03-13T14:30:00Z"),
+    TimeOfDay("evening", "2025-03-13T17:00:00Z"),
     TimeOfDay("dusk", "2025-03-13T18:20:00Z"),
     TimeOfDay("night", "2025-03-13T21:30:00Z"),
     TimeOfDay("morning", "2025-03-13T07:40:00Z"),
