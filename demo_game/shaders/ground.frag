@@ -1,6 +1,5 @@
 #include "frame.glsl"
 #include "tone.glsl"
-#include "sky_map.glsl"
 #include "fog_light.glsl"
 
 uniform sampler2D meadow_map;
@@ -13,9 +12,7 @@ uniform sampler2DShadow shadow_map;
 uniform sampler2D detail_map;
 #endif
 #ifdef WET
-uniform sampler2D sky_map;
 #include "wetness.glsl"
-#include "flash.glsl"
 #endif
 
 in vec4 v_light;
@@ -24,6 +21,9 @@ in vec4 v_view;
 in float v_snow;
 #ifdef NEAR
 in float v_gust;
+#ifdef WET
+in vec3 v_sky;
+#endif
 #else
 in vec4 v_wild;
 #endif
@@ -55,7 +55,7 @@ void main() {
 #endif
     // Thin snow lies in the hollows first, and earth holds less of it than grass.
     float snowy = 0.0;
-#ifndef NEAR
+#if !defined(NEAR) && defined(SNOWS)
     snowy = smoothstep(0.0, 1.0, v_snow * 0.5 - 0.45 * bare);
 #elif defined(WET) && defined(SNOWS)
     float deep = weather_snow(p, vec3(0.0, v_snow, 0.0)) * 1000.0;
@@ -70,7 +70,7 @@ void main() {
     vec3 color = albedo * (v_light.rgb + sun_full * (v_light.a * lit));
 #ifdef WET
 #ifdef WATER
-    float water = weather_water(p);
+    float water = weather_water_here(p, v_view.w);
     wet = weather_damp(water) * (1.0 - snowy);
     float puddle = weather_pooled(water, 5.0 - 12.5 * detail.a);
 #else
@@ -78,13 +78,11 @@ void main() {
 #endif
     puddle *= bare * (1.0 - snowy);
     color *= 1.0 - wet * (0.28 + 0.20 * bare) - 0.25 * puddle;
-    vec3 view = normalize(v_view.xyz);
-    vec2 tilt = detail.bg * (0.9 - 0.86 * puddle);
-    float away = 1.0 - view.y;
+    float away = 1.0 - v_view.y * inversesqrt(dot(v_view.xyz, v_view.xyz));
     float away2 = away * away;
     float fresnel = 0.02 + 0.98 * away2 * away2 * away;
-    vec3 sky = texture(sky_map, sky_uv_unit(vec3(tilt - view.xz, view.y).xzy)).rgb;
-    sky = flash_on_sky(sky);
+    // Ruffled, it mirrors more of what is high or of what is low.
+    vec3 sky = v_sky * (1.0 + (detail.b + detail.g) * (0.45 - 0.43 * puddle));
     color = tone(color * air.a + air.rgb);
     // Blended as display values, which the sky's map holds; the root makes up for it.
     float share = mix(fresnel * wet * (0.20 + 0.25 * bare), sqrt(fresnel) * 0.92, puddle);

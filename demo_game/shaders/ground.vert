@@ -3,6 +3,10 @@
 #include "light.glsl"
 #ifdef NEAR
 #include "breeze.glsl"
+#ifdef WET
+#include "sky_map.glsl"
+uniform sampler2D sky_map;
+#endif
 #endif
 
 in vec3 in_position;
@@ -11,10 +15,13 @@ in vec4 in_color;     // square root of the albedo beyond the painted map, w: pa
 
 out vec4 v_light;     // sky's rgb, sun's facing
 out vec4 v_haze;
-out vec4 v_view;      // towards the camera, m; w wetness
+out vec4 v_view;      // towards the camera, m; w wetness, or mm of water (NEAR, WATER)
 out float v_snow;     // near: upward part of the normal; far: mm of snow
 #ifdef NEAR
 out float v_gust;     // how much brighter grass is that leans
+#ifdef WET
+out vec3 v_sky;       // what still water mirrors, display values
+#endif
 #else
 out vec4 v_wild;
 #endif
@@ -39,6 +46,13 @@ void main() {
 #endif
     v_view = vec4(camera.xyz - in_position, cover.y);
 #ifdef NEAR
+#ifdef WET
+    vec3 up = normalize(v_view.xyz);
+    v_sky = flash_on_sky(textureLod(sky_map, sky_uv_unit(up * vec3(-1.0, 1.0, -1.0)), 0.0).rgb);
+#ifdef WATER
+    v_view.w = weather_open_wetness(in_position);
+#endif
+#endif
     v_gust = 0.45 * grass_lean(in_position.xz) - 0.12;
 #else
     v_wild = vec4(in_color.rgb * in_color.rgb, in_color.a);

@@ -17,17 +17,22 @@ float weather_open_wetness(vec3 p)
     return texture(weather_wet_far, uv + 0.5).r * inside.x * inside.y;
 }
 
+// mm of water at p on what rain meets there, 0 under cover; `open_sky` where the map ends: what
+// weather_open_wetness says there, for which a game may ask in the vertex shader.
+float weather_water_here(vec3 p, float open_sky)
+{
+    vec2 uv = (p.xz + p.y * weather_wet_fall.xy - weather_wet_frame.xy) * weather_wet_frame.z;
+    vec2 here = texture(weather_wet_map, uv + 0.5).rg;
+    float below = here.g - p.y;
+    // Under cover with a soft edge; what stands above the map's surface is not in it.
+    bool mapped = weather_wet_fall.z > 0.5 && max(abs(uv.x), abs(uv.y)) < 0.5 && below > -0.6;
+    return mapped ? here.r * (1.0 - smoothstep(0.35, 0.8, below)) : open_sky;
+}
+
 // mm of water at p on what rain meets there; 0 under cover, the open sky's where the map ends.
 float weather_water(vec3 p)
 {
-    vec2 uv = (p.xz + p.y * weather_wet_fall.xy - weather_wet_frame.xy) * weather_wet_frame.z;
-    if (weather_wet_fall.z > 0.5 && max(abs(uv.x), abs(uv.y)) < 0.5) {
-        vec2 here = texture(weather_wet_map, uv + 0.5).rg;
-        float below = here.g - p.y;
-        // Under cover with a soft edge; what stands above the map's surface is not in it.
-        if (below > -0.6) return here.r * (1.0 - smoothstep(0.35, 0.8, below));
-    }
-    return weather_open_wetness(p);
+    return weather_water_here(p, weather_open_wetness(p));
 }
 
 // mm of water that lie as snow on level ground at p under the open sky; to 250 m off.
