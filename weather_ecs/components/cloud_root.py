@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -46,8 +47,7 @@ class CloudRoot(Agreeing):
 
     def descendants(self) -> int:
         """The most seeds that this root can add."""
-        levels = np.linspace(self.seeds_start, self.seeds_end, self.reproductions_max)
-        return int(np.rint(levels).astype(np.int64).sum())
+        return _added(self.seeds_start, self.seeds_end, self.reproductions_max)
 
     def agree(self) -> None:
         if self.reproductions_min > self.reproductions_max:
@@ -63,3 +63,8 @@ class CloudRoot(Agreeing):
                 f"{count} descendants",
                 f"at most {MOST_DESCENDANTS} descendants of a root",
             )
+
+
+@lru_cache(4096)  # a model is checked whenever one of its hundreds of roots is another
+def _added(start: int, end: int, levels: int) -> int:
+    return int(np.rint(np.linspace(start, end, levels)).astype(np.int64).sum())
