@@ -30,7 +30,7 @@ class TimeOfDay:
 
 # A day of March before the night of a full moon, from the afternoon on; the key goes round.
 TIMES = (
-    # The sun 29 degrees high behind who looks along the path: a rainbow stands in rain to the right.
+    # The sun 29 degrees high behind who looks along the path: a rainbow in rain to the right.
     TimeOfDay("afternoon", "2025-03-13T14:30:00Z"),
     TimeOfDay("evening", "2025-03-13T17:00:00Z"),
     TimeOfDay("dusk", "2025-03-13T18:20:00Z"),

@@ -12,7 +12,7 @@ import moderngl
 import pytest
 
 from demo_game.cloudscape import SETTLED
-from demo_game.game import Game
+from demo_game.game import OPENING, Game
 from demo_game.mood import CLIMATE, STATES
 from demo_game.place import Place
 from demo_game.play_keys import play_key
@@ -64,6 +64,10 @@ def test_a_cloud_hangs_over_each_rain_and_goes_with_it(game: Game) -> None:
 
 def test_presets_turn_the_sky_and_it_comes_to_rest(game: Game) -> None:
     game.update(0.1)
+    assert game.weather.stats.state == OPENING[0]
+    game.choose_preset("heavy")
+    for _ in range(int(SETTLED)):
+        game.update(1.0)
     assert game.weather.stats.state == STATES["heavy"]
     before = game.weather.stats.clouds
     game.choose_preset("fog")
