@@ -86,9 +86,8 @@ class MapFrame:
 
     def handles(self, index: int, area: RainArea) -> list[Handle]:
         """What of an area the mouse can take."""
-        a, b = area.radii
         ahead, across = along(area, 0.0), along(area, 0.5 * math.pi)
-        reach = 1.0 + 26.0 * self.scale / a
+        reach = 1.0 + 26.0 * self.scale / area.radii[0]
         x, z = area.center
         turn = (x + (ahead[0] - x) * reach, z + (ahead[1] - z) * reach)
         return [
@@ -98,7 +97,9 @@ class MapFrame:
             Handle(index, "turn", self.pixel(*turn)),
         ]
 
-    def grasp(self, areas: tuple[RainArea, ...], chosen: int, px: float, py: float) -> Handle | None:
+    def grasp(
+        self, areas: tuple[RainArea, ...], chosen: int, px: float, py: float
+    ) -> Handle | None:
         """What the mouse would take there: a handle of the chosen area, or an area by its inside.
 
         Of several the smallest.
@@ -141,8 +142,7 @@ def covers(area: RainArea, x: float, z: float) -> bool:
 def dragged(area: RainArea, part: str, to: Point, grip: Point = (0.0, 0.0)) -> RainArea:
     """An area one of whose handles was dragged to a place; `grip` is where its middle was taken.
 
-    The first radius is never the smaller one: an area that is drawn wider across than along is
-    turned by a quarter.
+    The first radius is never the smaller one: where the two would meet, the other gives way.
     """
     x, z = to
     if part == "middle":

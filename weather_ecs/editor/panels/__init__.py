@@ -38,6 +38,15 @@ PANELS: list[Entry] = [
     Entry(Place.CLOUD_RIGHT, "panels.root", "RootPanel", 0.525),
     Entry(Place.CLOUD_VIEW, "cloud_view", "CloudView"),
     Entry(Place.CLOUD_BELOW, "gallery", "Gallery"),
+    Entry(Place.SKY_LEFT, "panels.simulation", "SimulationPanel"),
+    Entry(Place.SKY_LEFT, "panels.sky", "SkyPanel"),
+    Entry(Place.SKY_VIEW, "world_view", "WorldView"),
+    Entry(Place.SKY_VIEW, "map_view", "MapView"),
+    Entry(Place.SKY_VIEW, "heights_view", "HeightsView"),
+    Entry(Place.SKY_RIGHT, "panels.weather", "WeatherPanel"),
+    Entry(Place.SKY_RIGHT, "panels.wind", "WindPanel"),
+    Entry(Place.SKY_RIGHT, "panels.metar", "MetarPanel"),
+    Entry(Place.SKY_BELOW, "panels.transport", "Transport"),
 ]
 
 

@@ -1,0 +1,103 @@
+"""`Studio`: the simulation of the document and its views, which the panels of the sky share."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from weather_ecs import Weather
+from weather_ecs.editor import world_land
+from weather_ecs.editor.map_frame import MapFrame
+from weather_ecs.editor.simulation import Simulation
+from weather_ecs.editor.target import Target
+from weather_ecs.editor.world_camera import WorldCamera
+from weather_ecs.editor.world_scene import WorldScene
+
+if TYPE_CHECKING:
+    import moderngl
+
+    from weather_ecs.editor.document import Document
+    from weather_ecs.editor.shared import Shared
+
+QUALITY = "medium"  # where the document says nothing
+SETTLING = 1.5  # s after a change in which pictures of clouds still come in
+SCALES = (1.0, 0.75, 0.5)  # of the resolution, while the picture moves
+SLOW, QUICK = 0.055, 0.022  # s of a picture from which the next scale is used, or the one before
+
+
+class Studio:
+    """One simulation, the eye in it, and its picture."""
+
+    def __init__(self, gl: moderngl.Context) -> None:
+        self.simulation = Simulation(lambda seed: Weather(context=gl, seed=seed, quality=QUALITY))
+        self.scene = WorldScene(gl, self.simulation)
+        self.camera = WorldCamera(ground=world_land.height)
+        self.map = MapFrame()
+        self.map_wanted = True  # the map is to show everything
+        self.region = "temperate"  # whose bands of heights are shown
+        self.target = Target(gl)
+        self.drawn = 0  # pictures that were taken
+        self._gl = gl
+        self._generation = -1
+        self._seen: tuple[object, ...] = ()
+        self._unsettled = SETTLING
+        self._scale = 0
+        self._took = 0.0  # s of the last picture
+        self._closed = False
+
+    def update(self, document: Document, shared: Shared) -> None:
+        """Once a frame: the document as it is now, and the time that has passed."""
+        content = document.content
+        fresh = document.generation != self._generation
+        self._generation = document.generation
+        weather = self.simulation.weather
+        wanted = content.quality or QUALITY
+        if weather.quality != wanted:
+            weather.quality = wanted
+        self.simulation.show(content, fresh=fresh)
+        if fresh:
+            self.simulation.running = False
+            self.map_wanted = True
+        self.simulation.update(shared.dt)
+
+    def picture(self, size: tuple[int, int], dt: float, revision: int) -> bool:
+        """Take the picture anew, unless it would come out as the last one did; whether it was."""
+        simulation, camera = self.simulation, self.camera
+        eye = (*camera.eye().tolist(), camera.yaw, camera.pitch, camera.fov)
+        weather = simulation.weather
+        seen = (eye, size, revision, simulation.time, simulation.seed, weather.quality)
+        moving = seen != self._seen
+        self._unsettled = SETTLING if moving else self._unsettled - dt
+        at_full = self.target.size == size
+        if not moving and self._unsettled < 0.0 and at_full:
+            return False
+        self._seen = seen
+        scale = SCALES[self._scale] if moving else 1.0
+        pixels = tuple(max(round(side * scale), 1) for side in size)
+        begin = time.perf_counter()
+        self.target.use((pixels[0], pixels[1]))
+        self.scene.draw(camera, size[0] / max(size[1], 1))
+        self._gl.finish()
+        self._took = time.perf_counter() - begin
+        self.drawn += 1
+        if moving and self._took > SLOW:
+            self._scale = min(self._scale + 1, len(SCALES) - 1)
+        elif moving and self._took < QUICK:
+            self._scale = max(self._scale - 1, 0)
+        return True
+
+    def close(self) -> None:
+        """Give everything back; a second time does nothing."""
+        if self._closed:
+            return
+        self._closed = True
+        self.scene.release()
+        self.target.release()
+        self.simulation.close()
+
+
+def studio_of(shared: Shared) -> Studio:
+    """The window's studio; made when a panel first asks, which takes a moment."""
+    if shared.studio is None:
+        shared.studio = Studio(shared.gl)
+    return shared.studio
