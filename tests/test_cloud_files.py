@@ -186,7 +186,7 @@ BAD = [
     ("width = 250", "roots = 3", 16, "models[0].seeds[1].roots", "[[models.seeds.roots]]"),
     ("height = 5e-1", "height = nan", 22, "models[1].seeds[0].height", ">= 0.001"),
     ('model = "puffy"', 'model = "fluffy"', 25, "clouds[0].model", "of this file"),
-    ("state = 1.0", "state = 0.0", 28, "layers[0].skies", "all differ"),
+    ("state = 1.0", "state = 0.0", 31, "layers[0].skies", "all differ"),
     ('models = ["flat", ', 'models = ["round", ', 36, "layers[0].skies[1].models", "of this file"),
     ('models = ["flat", ', 'models = [{name = "a"}, ', 36, "layers[0].skies[1].models", "names"),
     ("duration = 120.5", "duration = 0", 40, "climate.duration", "> 0"),

@@ -22,6 +22,9 @@ LARGEST = 2 * 1024 * 1024  # bytes of a file
 LONGEST_LINE = 2000  # characters; bounds what reading takes, however a file is made
 DEEPEST = 32  # tables and arrays inside each other, each way of writing them
 
+MOST_TABLES = 20_000  # headers; what the package itself writes within LARGEST has fewer
+
+_HEADER = re.compile(r"^[ \t]*\[", re.MULTILINE)
 _BRACKET = re.compile(r"[\[\]{}]")
 _DOTTED = re.compile(rf"(?:\.[^.\n]*+){{{DEEPEST}}}")
 
@@ -49,9 +52,10 @@ def parse(name: str, text: str) -> dict[str, Any]:
     """A TOML text as tables. Raises WeatherFileError that names the file and the line."""
     _check_lines(name, text)
     try:
-        if _may_be_deep(text):
-            for _ in statements(text, DEEPEST):
-                pass
+        if _may_be_deep(text) or len(_HEADER.findall(text)) > MOST_TABLES:
+            headers = sum(1 for each in statements(text, DEEPEST) if each.header)
+            if headers > MOST_TABLES:
+                raise WeatherFileError(name, f"{headers} tables, allowed: at most {MOST_TABLES}")
         return tomllib.loads(text)
     except TooDeepError as error:
         deep = f"line {error.line}: nested too deeply, allowed: at most {DEEPEST} levels"

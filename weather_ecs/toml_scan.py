@@ -107,6 +107,8 @@ def line_of(text: str, path: Path) -> int | None:
         if not statement.keys:
             continue
         at = table if statement.header else (*table, *statement.keys)
+        if statement.header == "[[" and path[: len(at)] == at[:-1]:
+            at = at[:-1]  # what is to be one table is written as one of many
         if len(at) > depth and path[: len(at)] == at:
             best, depth = statement.start, len(at)
     return None if best is None else _line(text, best)
