@@ -88,6 +88,11 @@ class CloudStage:
             changed = True
         return changed
 
+    def sky(self, draw: bool) -> None:
+        """Whether the sky is drawn behind the cloud; it is, unless this says otherwise."""
+        self._air.draw = draw
+        self.step(0.0)
+
     @property
     def posed(self) -> Posed | None:
         """What stands there, with its absorption as it is now; None for nothing."""
@@ -132,15 +137,21 @@ class CloudStage:
 
 def own_rows(model: CloudModel, shape: CloudShapeData, middle: NDArray) -> tuple[int, ...]:
     """Rows of the boxes that are the model's seeds; the rest were added by roots."""
+    if len(shape.centers) == len(model.seeds):
+        return tuple(range(len(model.seeds)))
     rows, row = [], 0
     centers = np.array([seed.center for seed in model.seeds]) - middle
     for index, center in enumerate(centers):
-        away = np.abs(shape.centers[row:] - center).max(axis=1)
-        limit = 1e-3 + 1e-5 * float(np.abs(center).max(initial=1.0))
-        same = np.flatnonzero(away <= limit)
-        row += int(same[0]) if len(same) else 0
-        rows.append(row)
-        row = min(row + 1, len(shape.centers) - len(centers) + index + 1)
+        most = len(shape.centers) - len(centers) + index
+        if not model.seeds[index - 1].roots if index else True:
+            found = row  # nothing has been added since the seed before
+        else:
+            away = np.abs(shape.centers[row : most + 1] - center).max(axis=1)
+            limit = 1e-3 + 1e-5 * float(np.abs(center).max(initial=1.0))
+            same = np.flatnonzero(away <= limit)
+            found = row + int(same[0]) if len(same) else row
+        rows.append(min(found, most))
+        row = min(found + 1, most + 1)
     return tuple(rows)
 
 

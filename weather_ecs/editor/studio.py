@@ -37,7 +37,7 @@ class Studio:
         self.region = "temperate"  # whose bands of heights are shown
         self.target = Target(gl)
         self.drawn = 0  # pictures that were taken
-        self._gl = gl
+        self.gl = gl
         self._generation = -1
         self._seen: tuple[object, ...] = ()
         self._unsettled = SETTLING
@@ -77,7 +77,7 @@ class Studio:
         begin = time.perf_counter()
         self.target.use((pixels[0], pixels[1]))
         self.scene.draw(camera, size[0] / max(size[1], 1))
-        self._gl.finish()
+        self.gl.finish()
         self._took = time.perf_counter() - begin
         self.drawn += 1
         if moving and self._took > SLOW:
