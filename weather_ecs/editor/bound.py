@@ -48,7 +48,8 @@ def rows(bound: Bound, *names: str) -> None:
 
 def row(bound: Bound, name: str, label: str | None = None, unit: str | None = None) -> None:
     """The line of a field: the widget follows from what the field may be."""
-    known = info(type(bound.part), name)
+    kind: Any = type(bound.part)
+    known = info(kind, name)
     value = getattr(bound.part, name)
     title = label or known.label
     with line(bound, name, title, known):

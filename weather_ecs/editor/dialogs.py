@@ -33,6 +33,8 @@ class Dialogs:
             session.wants_path = None
             self._path.ask(title, session.document.path, done, saves=saves)
         self._path.draw()
+        if session.shared.exports is not None:
+            session.shared.exports.draw(session.document, session.shared)
         _unsaved(session)
         _changed(session)
         _trouble(session)

@@ -135,12 +135,15 @@ def turntable(
 
     Nothing is left on disk where it is not run to its end. Raises OSError, MissingExtraError.
     """
-    with closing(Shooter(gl, subject)) as shooter, written_whole(path) as other:
-        with closing(film(other, size, fps)) as writer:
-            way = shooter.way_round(frames, (pitch,), size[0] / size[1])[0]
-            for k, camera in enumerate(way):
-                writer.send(shooter.picture(camera, size).tobytes())
-                yield (k + 1) / (frames + 1)
+    with (
+        closing(Shooter(gl, subject)) as shooter,
+        written_whole(path) as other,
+        closing(film(other, size, fps)) as writer,
+    ):
+        way = shooter.way_round(frames, (pitch,), size[0] / size[1])[0]
+        for k, camera in enumerate(way):
+            writer.send(shooter.picture(camera, size).tobytes())
+            yield (k + 1) / (frames + 1)
     yield 1.0
 
 

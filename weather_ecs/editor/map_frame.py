@@ -19,7 +19,7 @@ Point = tuple[float, float]
 class Handle(NamedTuple):
     """Something of a rain area that can be dragged."""
 
-    index: int  # of the area
+    area: int  # index of it
     part: str  # "middle", "long", "short" or "turn"
     at: Point  # pixels
 

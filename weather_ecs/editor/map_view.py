@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from imgui_bundle import imgui
@@ -74,12 +75,12 @@ class MapView:
         if imgui.is_item_activated() and imgui.is_mouse_clicked(_LEFT):
             self._held = frame.grasp(areas, shared.selection.area, x, y)
             if self._held is not None:
-                shared.selection.area = self._held.index
-                center, (px, pz) = areas[self._held.index].center, frame.world(x, y)
+                shared.selection.area = self._held.area
+                center, (px, pz) = areas[self._held.area].center, frame.world(x, y)
                 self._grip = (px - center[0], pz - center[1])
         if imgui.is_item_active() and (io.mouse_delta.x or io.mouse_delta.y):
             held = self._held
-            if held is not None and held.index < len(areas) and imgui.is_mouse_down(_LEFT):
+            if held is not None and held.area < len(areas) and imgui.is_mouse_down(_LEFT):
                 self._drag(document, held, frame.world(x, y))
             elif held is None:
                 frame.pan(io.mouse_delta.x, io.mouse_delta.y)
@@ -94,7 +95,7 @@ class MapView:
                 studio.camera.go(*frame.world(x, y))
 
     def _drag(self, document: Document, held: Handle, to: tuple[float, float]) -> None:
-        index = held.index
+        index = held.area
 
         def make() -> Content:
             area = dragged(document.content.rain_areas[index], held.part, to, self._grip)
@@ -134,12 +135,13 @@ class MapView:
             strength = min(0.12 + 0.05 * math.log1p(float(row["rain_rate"])), 0.42)
             rim = _rim(frame, row)
             lines.add_convex_poly_filled(rim, theme.packed((*color, strength)))
-            lines.add_polyline(rim, theme.packed((*color, 0.9)), flags=imgui.ImDrawFlags_.closed, thickness=1.5)
+            outline = theme.packed((*color, 0.9))
+            lines.add_polyline(rim, outline, flags=imgui.ImDrawFlags_.closed, thickness=1.5)
         if not 0 <= chosen < len(areas):
             return
         area = areas[chosen]
         if studio.simulation.time > 0.0:  # where the document has it: rain drifts away from there
-            points = [_V(*p) for p in frame.rim(area)]
+            points: list[Any] = [_V(*p) for p in frame.rim(area)]
             color_there = theme.packed((1.0, 1.0, 1.0, 0.35))
             lines.add_polyline(points, color_there, flags=imgui.ImDrawFlags_.closed, thickness=1.0)
         handles = frame.handles(chosen, area)
@@ -210,10 +212,10 @@ def _draw_layer(
     lines.add_text(at, color, label)
 
 
-def _rim(frame: MapFrame, row: np.void, points: int = 40) -> list[imgui.ImVec2]:
+def _rim(frame: MapFrame, row: np.void, points: int = 40) -> list[Any]:
     (x, z), (a, b), heading = row["center"].tolist(), row["radii"].tolist(), float(row["heading"])
     c, s = math.cos(heading), math.sin(heading)
-    rim = []
+    rim: list[Any] = []
     for k in range(points):
         u, v = a * math.cos(math.tau * k / points), b * math.sin(math.tau * k / points)
         rim.append(_V(*frame.pixel(x + u * c - v * s, z - u * s - v * c)))
@@ -224,7 +226,7 @@ def _draw_eye(lines: imgui.ImDrawList, frame: MapFrame, studio: Studio) -> None:
     camera = studio.camera
     x, y = frame.pixel(camera.x, camera.z)
     half = 0.5 * camera.fov * 1.5
-    corners = [_V(x, y)]
+    corners: list[Any] = [_V(x, y)]
     for k in range(9):
         turn = camera.yaw + half * (1.0 - k / 4.0)
         corners.append(_V(x - 46.0 * math.sin(turn), y - 46.0 * math.cos(turn)))
@@ -245,11 +247,11 @@ def _draw_wind(lines: imgui.ImDrawList, frame: MapFrame, studio: Studio) -> None
         tip, tail = (x + 18.0 * dx, y + 18.0 * dy), (x - 18.0 * dx, y - 18.0 * dy)
         lines.add_line(_V(*tail), _V(*tip), color, 2.0)
         side = (-dy, dx)
-        barbs = [
+        one, other = (
             _V(tip[0] - 9.0 * dx + k * 5.0 * side[0], tip[1] - 9.0 * dy + k * 5.0 * side[1])
             for k in (1, -1)
-        ]
-        lines.add_triangle_filled(_V(*tip), *barbs, color)
+        )
+        lines.add_triangle_filled(_V(*tip), one, other, color)
     text = f"{speed:.1f} m/s" if speed > 0.05 else "calm"
     size = imgui.calc_text_size(text)
     lines.add_rect_filled(

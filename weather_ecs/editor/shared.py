@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     import moderngl
 
     from weather_ecs.editor.document import Document
+    from weather_ecs.editor.exporting import Exports
     from weather_ecs.editor.studio import Studio
 
 NOTE_LASTS = 6.0  # s that a note stays in the status line
@@ -80,6 +81,7 @@ class Shared:
     note_age: float = 0.0  # s
     note_bad: bool = False
     studio: Studio | None = None  # the simulation; see `studio.studio_of`
+    exports: Exports | None = None  # once something was exported
 
     def choose_model(self, index: int) -> None:
         """Edit another model, from its first seed on."""

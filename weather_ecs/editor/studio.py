@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from weather_ecs import Weather
 from weather_ecs.editor import world_land
 from weather_ecs.editor.map_frame import MapFrame
-from weather_ecs.editor.simulation import Simulation
+from weather_ecs.editor.simulation import BUDGET, Simulation
 from weather_ecs.editor.target import Target
 from weather_ecs.editor.world_camera import WorldCamera
 from weather_ecs.editor.world_scene import WorldScene
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 QUALITY = "medium"  # where the document says nothing
 SETTLING = 1.5  # s after a change in which pictures of clouds still come in
+SEEKING = 0.03  # s of a frame, on the way to another moment
+GLIMPSE = 0.5  # s between pictures on that way
 SCALES = (1.0, 0.75, 0.5)  # of the resolution, while the picture moves
 SLOW, QUICK = 0.055, 0.022  # s of a picture from which the next scale is used, or the one before
 
@@ -43,6 +45,7 @@ class Studio:
         self._unsettled = SETTLING
         self._scale = 0
         self._took = 0.0  # s of the last picture
+        self._since = 0.0  # s since then
         self._closed = False
 
     def update(self, document: Document, shared: Shared) -> None:
@@ -58,7 +61,9 @@ class Studio:
         if fresh:
             self.simulation.running = False
             self.map_wanted = True
-        self.simulation.update(shared.dt)
+        # On the way to another moment nothing is drawn, so that there is more time to get there.
+        budget = SEEKING if self.simulation.seeking else BUDGET
+        self.simulation.update(shared.dt, budget)
 
     def picture(self, size: tuple[int, int], dt: float, revision: int) -> bool:
         """Take the picture anew, unless it would come out as the last one did; whether it was."""
@@ -66,12 +71,15 @@ class Studio:
         eye = (*camera.eye().tolist(), camera.yaw, camera.pitch, camera.fov)
         weather = simulation.weather
         seen = (eye, size, revision, simulation.time, simulation.seed, weather.quality)
+        self._since += dt
+        if simulation.seeking and self._since < GLIMPSE and self.target.size != (0, 0):
+            return False
         moving = seen != self._seen
         self._unsettled = SETTLING if moving else self._unsettled - dt
         at_full = self.target.size == size
         if not moving and self._unsettled < 0.0 and at_full:
             return False
-        self._seen = seen
+        self._seen, self._since = seen, 0.0
         scale = SCALES[self._scale] if moving else 1.0
         pixels = tuple(max(round(side * scale), 1) for side in size)
         begin = time.perf_counter()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from imgui_bundle import imgui
 
 from weather_ecs.components import Climate
@@ -32,6 +34,8 @@ class Transport:
 
     def close(self) -> None:
         """Give the simulation and its views back, if anybody has asked for them."""
+        if self._shared.exports is not None:
+            self._shared.exports.close()
         if self._shared.studio is not None:
             self._shared.studio.close()
 
@@ -141,7 +145,7 @@ def draw_states(
     if climate is None:
         return
     count = max(min(int(width / 4.0), 200), 2)
-    points = []
+    points: list[Any] = []
     for k in range(count + 1):
         time = span * k / count
         points.append(_V(left + width * k / count, level(state_after(climate, time))))

@@ -66,7 +66,7 @@ class WindPanel:
             self._plotted, self._curves = (wind,), curves(wind)
         assert self._curves is not None, "the curves of this wind"
         times, law, gusts = self._curves
-        size = imgui.ImVec2(-1.0, 150.0)
+        size = imgui.ImVec2(-1.0, 165.0)
         flags = implot.Flags_.no_menus | implot.Flags_.no_box_select | implot.Flags_.no_mouse_text
         if not implot.begin_plot("##wind", size, flags):
             return
@@ -74,7 +74,8 @@ class WindPanel:
         always = implot.Cond_.always
         top = max(float(max(law.max(), gusts.max())) * 1.15, 1.0)
         implot.setup_axes_limits(float(times[0]), float(times[-1]), 0.0, top, always)
-        implot.setup_legend(implot.Location_.north_east)
+        below = implot.LegendFlags_.outside | implot.LegendFlags_.horizontal
+        implot.setup_legend(implot.Location_.north, below)
         implot.plot_line("with gusts", times, gusts)
         implot.plot_line("law", times, law)
         if times[0] <= now <= times[-1]:
