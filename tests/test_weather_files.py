@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from file_values import contents
+from tests.file_values import contents
 from weather_ecs import CloudFile, Weather, WeatherFileError, load_clouds, presets, save_clouds
 from weather_ecs.cloud_files import text_of
 from weather_ecs.components import (
@@ -32,7 +32,7 @@ from weather_ecs.components import (
 from weather_ecs.file_content import ONE
 from weather_ecs.file_tables import VERSION, document_of
 from weather_ecs.file_text import DEEPEST, LARGEST, write_text
-from worlds import fresh_world
+from tests.worlds import fresh_world
 
 QUICK = settings(
     deadline=None,

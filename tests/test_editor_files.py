@@ -1,0 +1,429 @@
+"""The editor's files: what an author wrote is kept, and nothing is lost whatever the disk does."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from tests.file_values import contents
+from weather_ecs import CloudFile, WeatherFileError, load_clouds, save_clouds
+from weather_ecs.cloud_files import read_content
+from weather_ecs.components import Climate, CloudModel, CloudSeed, Fog, RainArea, Wind
+from weather_ecs.editor import content as changes
+from weather_ecs.editor import files as files_module
+from weather_ecs.editor.document import Document
+from weather_ecs.editor.files import ChangedOnDiskError, Files, OnDisk
+from weather_ecs.editor.kept_text import kept_text, match
+from weather_ecs.editor.recent import MOST, Recent
+from weather_ecs.file_tables import document_of
+
+WRITTEN = """# An evening by the sea
+# made by hand
+
+version = 2  # the format's
+x_author = "me"
+
+# The tall one.
+[[models]]   # first
+name = "tower"  # its name
+size_max = 200
+light_penetration = inf
+x_note = "keep"
+
+  # its lower box
+[[models.seeds]]
+center = [0, 50.5, 0]  # m
+# below the centre
+
+[[models.seeds.roots]]
+pitch = 90
+
+[[models.seeds]]
+width = 250
+
+[models.x_own]
+a = 1
+
+# ==== the flat one ====
+
+[[models]]
+name = "flat"
+images = [
+  "sheet",  # grey
+  "wisp_1",
+]
+seeds = [ {height = 5e-1, x_q = 3, roots = [{pitch = 5}]} ]
+
+[[layers]]
+base = 1500
+climate.duration = 5
+[[layers.skies]]
+state = 0.0
+[[layers.skies]]
+state = 1.0 # storm
+models = ["flat", "cumulus"]
+count = 30
+
+[climate]
+duration = 120.5 # s
+
+# the end
+"""
+QUICK = settings(
+    deadline=None,
+    max_examples=60,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
+
+
+@pytest.fixture
+def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Files:
+    monkeypatch.setattr(files_module, "LOOK_EVERY", 0.0)
+    return Files(Recent(tmp_path / "settings" / "recent.json"))
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    place = tmp_path / "evening.toml"
+    place.write_text(WRITTEN, encoding="utf-8")
+    return place
+
+
+def opened(files: Files, path: Path) -> Document:
+    document = Document()
+    files.open(document, path)
+    return document
+
+
+def with_fog(document: Document, visibility: float = 500.0) -> None:
+    document.apply("Fog", replace(document.content, fog=Fog(visibility)))
+
+
+def kept(content: CloudFile) -> str:
+    return kept_text("f", WRITTEN, read_content("f", WRITTEN), content)
+
+
+def lines_gone(text: str) -> list[str]:
+    """Lines of WRITTEN that are missing in the text, whatever their order."""
+    rest = text.splitlines()
+    gone = []
+    for line in WRITTEN.splitlines():
+        if line in rest:
+            rest.remove(line)
+        elif line:
+            gone.append(line)
+    return gone
+
+
+def test_what_has_not_changed_is_written_as_it_was():
+    assert kept(read_content("f", WRITTEN)) == WRITTEN
+
+
+def test_a_value_changes_in_its_line_alone():
+    content = read_content("f", WRITTEN)
+    got = kept(changes.with_item(content, "models", 0, replace(content.models[0], size_max=300.5)))
+    assert got == WRITTEN.replace("size_max = 200", "size_max = 300.5")
+    got = kept(changes.rename_model(content, 0, "spire"))
+    assert got == WRITTEN.replace('name = "tower"  #', 'name = "spire"  #')
+    seed = replace(content.models[0].seeds[0], center=(1.0, 50.5, 0.0))
+    got = kept(changes.with_seed(content, 0, 0, seed))
+    assert got == WRITTEN.replace("[0, 50.5, 0]", "[1.0, 50.5, 0.0]")
+    got = kept(replace(content, climate=replace(content.climate, duration=3.0)))
+    assert got == WRITTEN.replace("120.5 #", "3.0 #")
+
+
+def test_a_new_value_stands_last_in_its_table():
+    content = read_content("f", WRITTEN)
+    got = kept(changes.with_item(content, "models", 0, replace(content.models[0], opacity=0.5)))
+    assert got == WRITTEN.replace('x_note = "keep"\n', 'x_note = "keep"\nopacity = 0.5\n')
+
+
+def test_what_is_deleted_takes_its_own_comments_along():
+    content = read_content("f", WRITTEN)
+    got = kept(changes.without(content, "models", 0))
+    assert "The tall one" not in got and "lower box" not in got and "models.x_own" not in got
+    assert "==== the flat one ====" in got and "# made by hand" in got and "# storm" in got
+    got = kept(replace(content, climate=None))
+    assert lines_gone(got) == ["[climate]", "duration = 120.5 # s"]
+    got = kept(changes.with_seed(content, 0, 0, replace(content.models[0].seeds[0], roots=())))
+    assert lines_gone(got) == ["[[models.seeds.roots]]", "pitch = 90"]
+
+
+def test_models_take_their_comments_to_another_place():
+    content = read_content("f", WRITTEN)
+    got = kept(changes.moved(content, "models", 0, 1))
+    assert lines_gone(got) == []
+    assert got.index("the flat one") < got.index("The tall one") < got.index("[[layers]]")
+
+
+def test_seeds_of_one_line_are_written_out_when_they_change():
+    content = read_content("f", WRITTEN)
+    model = content.models[1]
+    new = replace(model, seeds=(CloudSeed(), *model.seeds))
+    got = kept(changes.with_item(content, "models", 1, new))
+    assert lines_gone(got) == ["seeds = [ {height = 5e-1, x_q = 3, roots = [{pitch = 5}]} ]"]
+    assert "x_q = 3" in got and "height = 0.5" in got
+    got = kept(changes.with_layer_climate(content, 0, Climate(duration=6.0)))
+    assert lines_gone(got) == ["climate.duration = 5"]
+    assert "[layers.climate]\nduration = 6.0\n" in got
+
+
+def test_new_tables_come_where_their_like_are_or_last():
+    content = read_content("f", WRITTEN)
+    third = CloudModel("third", (CloudSeed(),))
+    got = kept(changes.with_new(content, "models", third))
+    assert lines_gone(got) == []
+    assert got.index('"flat"') < got.index('"third"') < got.index("[[layers]]")
+    got = kept(replace(content, rain_areas=(RainArea((0, 0), (2, 1)),), quality="low"))
+    assert lines_gone(got) == []
+    assert got.index("[climate]") < got.index("[[rain_areas]]")
+    assert got.index('quality = "low"') < got.index("[[models]]")
+
+
+def test_an_older_version_is_written_as_the_present_one(tmp_path, files):
+    path = tmp_path / "old.toml"
+    path.write_bytes(b"version = 1 # old\r\n[[layers]] # mine\r\nbase = 5 # m\r\n")
+    document = opened(files, path)
+    assert not document.dirty
+    with_fog(document)
+    files.save(document)
+    text = path.read_bytes()
+    assert text.startswith(b"version = 2 # old\r\n[[layers]] # mine\r\nbase = 5 # m\r\n")
+    assert text.count(b"\n") == text.count(b"\r\n")  # lines end as they did
+    assert load_clouds(path).fog is not None
+
+
+@settings(QUICK, max_examples=25)
+@given(contents(), contents(), st.data())
+def test_any_change_is_written_and_comments_stay(before, after, data):
+    """Parts of two files, in any mixture, over a text with a comment on every line."""
+    plain = "\n".join(f"{line}  # {n}" if line[-1:] not in ("", "[", ",") else line
+                      for n, line in enumerate(_text(before).splitlines()))  # fmt: skip
+    assert repr(document_of(read_content("f", plain))) == repr(document_of(before))
+    names = ["rain_areas", "winds", "fog", "air", "sun", "climate", "extra", "quality"]
+    other = {name: getattr(after, name) for name in names if data.draw(st.booleans())}
+    mixed = replace(before, **other)
+    if data.draw(st.booleans()) and before.models:
+        models = data.draw(st.permutations(before.models))
+        mixed = replace(mixed, models=tuple(models))
+    if data.draw(st.booleans()):
+        mixed = replace(mixed, layers=mixed.layers[::-1], layer_climates=())
+    got = kept_text("f", plain, before, mixed)
+    assert repr(document_of(read_content("f", got))) == repr(document_of(mixed))
+    assert "version = 2  # 0\n" in got  # it is not written anew as a whole
+    for number, line in enumerate(plain.splitlines()):  # of what nobody has touched
+        if line.startswith("name = "):
+            assert line in got, number
+
+
+def _text(content: CloudFile) -> str:
+    from weather_ecs.cloud_files import text_of
+
+    return text_of("f", content)
+
+
+@QUICK
+@given(st.lists(st.sampled_from("abcd"), max_size=6), st.lists(st.sampled_from("abcd"), max_size=6))
+def test_things_are_matched_once_each(old, new):
+    a = [{"name": name, "x": k} for k, name in enumerate(old)]
+    b = [{"name": name, "x": -k} for k, name in enumerate(new)]
+    pairs = match(a, b)
+    taken = [at for at in pairs if at is not None]
+    assert len(set(taken)) == len(taken)
+    for item, at in zip(b, pairs, strict=True):
+        if at is None:
+            assert new.count(item["name"]) > old.count(item["name"]) or not old
+    assert match(a, a) == list(range(len(a)))
+
+
+def test_of_a_text_that_cannot_be_kept_the_opening_stays(monkeypatch):
+    content = read_content("f", WRITTEN)
+    monkeypatch.setattr("weather_ecs.editor.toml_tree.Node.set", lambda *_: None)
+    got = kept(changes.with_item(content, "models", 0, replace(content.models[0], size_max=300.5)))
+    assert got.startswith("# An evening by the sea\n# made by hand\n")
+    assert read_content("f", got).models[0].size_max == 300.5
+
+
+def test_open_save_and_save_as(files, path, tmp_path):
+    document = opened(files, path)
+    assert not document.dirty and document.name == "evening.toml"
+    with_fog(document)
+    files.save(document)
+    assert not document.dirty
+    assert path.read_text().startswith(WRITTEN.partition("\n# the end")[0])
+    other = tmp_path / "other.toml"
+    with_fog(document, 60.0)
+    files.save_as(document, other)
+    assert document.path == other and load_clouds(other).fog.visibility == 60.0  # type: ignore[union-attr]
+    assert load_clouds(path).fog.visibility == 500.0  # type: ignore[union-attr]
+    assert "# made by hand" in other.read_text()
+    generation = document.generation
+    files.new(document)
+    assert document.path is None and document.content == CloudFile() and not document.can_undo
+    assert document.generation != generation
+    with pytest.raises(FileNotFoundError):
+        files.save(document)
+
+
+def test_a_bad_file_leaves_the_document_as_it_was(files, path, tmp_path):
+    document = opened(files, path)
+    with_fog(document)
+    content = document.content
+    bad = tmp_path / "bad.toml"
+    bad.write_text("version = 2\n[fog]\nvisibility = -1\n")
+    for name in (bad, tmp_path / "none.toml", tmp_path):
+        with pytest.raises(WeatherFileError):
+            files.open(document, name)
+    assert document.content is content and document.path == path and document.can_undo
+
+
+def test_a_full_disk_leaves_file_and_document(files, path, monkeypatch):
+    document = opened(files, path)
+    with_fog(document)
+    content = document.content
+
+    def fail(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", fail)
+    with pytest.raises(OSError, match="No space"):
+        files.save(document)
+    assert path.read_text() == WRITTEN and document.content is content and document.dirty
+    monkeypatch.undo()
+    files.save(document)
+    assert not document.dirty
+
+
+def test_a_file_made_read_only_is_refused(files, path):
+    document = opened(files, path)
+    with_fog(document)
+    path.chmod(0o400)
+    with pytest.raises(PermissionError):
+        files.save(document)
+    assert document.dirty and path.read_text() == WRITTEN
+
+
+def test_a_file_that_is_gone_is_written_again(files, path):
+    document = opened(files, path)
+    path.unlink()
+    news = files.follow(document)
+    assert news is not None and news.bad and "gone" in news.text
+    assert files.follow(document) is None  # told once
+    assert document.dirty
+    files.save(document)
+    assert path.read_text() == WRITTEN and not document.dirty
+
+
+def test_a_change_on_disk_is_taken_and_can_be_undone(files, path):
+    document = opened(files, path)
+    before = document.content
+    assert files.follow(document) is None
+    path.write_text(WRITTEN.replace("120.5", "7"))
+    news = files.follow(document)
+    assert news is not None and not news.bad
+    assert document.content.climate is not None and document.content.climate.duration == 7.0
+    assert not document.dirty and document.undo_label == "reload of evening.toml"
+    document.undo()
+    assert document.content is before and document.dirty
+    files.save(document)
+    assert path.read_text() == WRITTEN.replace("120.5", "120.5")
+
+
+def test_a_file_that_is_touched_alone_is_no_news(files, path):
+    document = opened(files, path)
+    os.utime(path, ns=(1, 1))
+    assert files.follow(document) is None
+    path.write_text(WRITTEN)
+    assert files.follow(document) is None and not document.dirty
+
+
+def test_a_broken_state_on_disk_keeps_what_there_was(files, path):
+    document = opened(files, path)
+    content = document.content
+    path.write_text(WRITTEN.replace("duration = 120.5", "duration = "))
+    news = files.follow(document)
+    assert news is not None and news.bad
+    assert "evening.toml" in news.text and "line" in news.text
+    assert document.content is content and document.dirty
+    assert files.follow(document) is None
+    with pytest.raises(ChangedOnDiskError):
+        files.save(document)
+    path.write_text(WRITTEN.replace("120.5", "8"))
+    files.follow(document)
+    files.reload(document)
+    assert document.content.climate is not None and document.content.climate.duration == 8.0
+
+
+def test_two_changes_at_once_are_for_the_user_to_decide(files, path):
+    document = opened(files, path)
+    with_fog(document)
+    mine = document.content
+    theirs = WRITTEN.replace("120.5", "7")
+    path.write_text(theirs)
+    news = files.follow(document)
+    assert news is not None and news.bad and document.content is mine
+    assert files.on_disk(document) is OnDisk.SAME
+    with pytest.raises(ChangedOnDiskError, match="changed on disk"):
+        files.save(document)
+    assert path.read_text() == theirs
+    files.save(document, anyway=True)
+    assert load_clouds(path).fog is not None and not document.dirty
+    files.save(document)
+
+
+def test_recent_files_are_kept_from_run_to_run(tmp_path):
+    place = tmp_path / "deep" / "recent.json"
+    recent = Recent(place)
+    for number in range(MOST + 3):
+        recent.add(tmp_path / f"{number}.toml")
+    recent.add(tmp_path / "7.toml")
+    again = Recent(place)
+    assert again.paths == recent.paths and len(again.paths) == MOST
+    assert again.paths[:2] == (tmp_path / "7.toml", tmp_path / f"{MOST + 2}.toml")
+    again.remove(tmp_path / "7.toml")
+    assert tmp_path / "7.toml" not in Recent(place).paths
+    for bad in (b"", b"[", b"{}", b'[1, null, ""]', b"\xff", b"[" * 60_000):
+        place.write_bytes(bad)
+        assert Recent(place).paths == ()
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    Recent(blocked / "recent.json").add(tmp_path)  # nowhere to write: no error
+
+
+def test_a_file_that_cannot_be_opened_any_more_is_no_recent_one(files, path):
+    document = opened(files, path)
+    assert files.recent.paths == (path,)
+    path.unlink()
+    with pytest.raises(WeatherFileError):
+        files.open(document, path)
+    assert files.recent.paths == ()
+
+
+def test_links_are_kept_by_the_editor(files, path, tmp_path):
+    link = tmp_path / "link.toml"
+    link.symlink_to(path)
+    document = opened(files, link)
+    document.apply("Wind", replace(document.content, winds=(Wind(),)))
+    files.save(document)
+    assert link.is_symlink() and len(load_clouds(path).winds) == 1
+
+
+def test_a_large_file_is_opened_and_saved(files, tmp_path):
+    seeds = tuple(CloudSeed((k, 0, 0)) for k in range(40))
+    models = tuple(CloudModel(f"m{k}", seeds) for k in range(50))
+    path = tmp_path / "large.toml"
+    save_clouds(path, CloudFile(models))
+    document = opened(files, path)
+    seed = replace(document.content.models[30].seeds[20], width=7.0)
+    document.apply("Width", changes.with_seed(document.content, 30, 20, seed))
+    before = path.read_text()
+    files.save(document)
+    changed = [a for a, b in zip(before.splitlines(), path.read_text().splitlines(), strict=True)
+               if a != b]  # fmt: skip
+    assert changed == ["width = 100.0"]
