@@ -63,7 +63,7 @@ class MapFrame:
     def zoom(self, notches: float, px: float, py: float) -> None:
         """Come nearer by so many notches of the wheel; what is under the mouse stays there."""
         x, z = self.world(px, py)
-        self.scale = min(max(self.scale * 0.85**notches, CLOSEST), WIDEST)
+        self.scale = min(max(self.scale * 0.85 ** min(max(notches, -50.0), 50.0), CLOSEST), WIDEST)
         there = self.world(px, py)
         self.x += x - there[0]
         self.z += z - there[1]

@@ -83,7 +83,7 @@ class WorldCamera:
 
     def zoom(self, notches: float) -> None:
         """Look closer by so many notches of the wheel."""
-        self.fov = min(max(self.fov * 0.9**notches, NARROWEST), WIDEST)
+        self.fov = min(max(self.fov * 0.9 ** min(max(notches, -50.0), 50.0), NARROWEST), WIDEST)
 
     def move(self, ahead: float, aside: float, above: float, dt: float, fast: bool = False) -> None:
         """Walk, or fly, each of the first three -1 to 1, for `dt` seconds."""
