@@ -25,7 +25,7 @@ from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.gauge_pass import MAX_GAUGES, RING
 from weather_ecs.physics.container import births
 from weather_ecs.physics.drops import drop_density, sample_diameters
-from weather_ecs.physics.gauge import WIDEST, catch_radius, landing_water
+from weather_ecs.physics.gauge import WATCHED, WIDEST, catch_middle, catch_radius, landing_water
 from weather_ecs.physics.lod import rim_fade, weight_shape
 from weather_ecs.physics.rain_step import diameters, fall_speeds, law_of
 from weather_ecs.systems.gauge import PARTS, GaugeBoard
@@ -90,6 +90,19 @@ def test_a_catch_is_wider_where_drops_are_few_and_never_smaller_than_the_opening
     assert catch_radius(0.5, distance=0.5, count=1, **rest) == WIDEST * 30.0
     assert catch_radius(0.5, distance=0.5, count=1e9, **rest) == 0.5
     assert catch_radius(50.0, distance=0.5, count=14_000, **rest) == 50.0
+
+
+@settings(deadline=None)
+@given(st.floats(0.0, 1.0), st.floats(-1.0, 1.0), st.floats(0.01, WIDEST))
+def test_a_catch_lies_where_drops_are_counted_and_around_its_gauge_where_it_can(x, z, radius):
+    forward, lateral = catch_middle(x, z, radius)
+    if math.hypot(x, z) >= 1.0:
+        assert (forward, lateral) == (x, z)
+        return
+    assert math.hypot(forward, lateral) <= WATCHED - radius + 1e-9 and forward >= radius - 1e-9
+    if x >= radius and math.hypot(x, z) <= WATCHED - radius:
+        assert (forward, lateral) == (x, z)
+    assert catch_middle(-0.01, z, radius) == (-0.01, z)
 
 
 @pytest.mark.parametrize("count", [3_000, 14_000, 50_000])
@@ -306,6 +319,20 @@ def test_gusts_a_profile_and_turbulence_take_no_rain_and_bring_none(
         watch(weather, 30.0)
         got = [gauge.rate for gauge in gauges]
         assert got == pytest.approx([RATE] * len(gauges), rel=0.05)
+        assert got != [RATE] * len(gauges)
+
+
+@pytest.mark.usefixtures("target")
+def test_turbulence_brings_and_takes_none_near_and_far(ctx: moderngl.Context, backend: str) -> None:
+    with Weather(context=ctx, backend=backend, quality="medium", seed=5) as weather:
+        esper.create_entity(RainArea((0, 0), (200, 200), RATE))
+        esper.create_entity(Wind((0.6, 0.8), 9.0, turbulence=0.25, ground=-1.0, scale=5.0))
+        gauges = [RainGauge((x, 0.5, 0.0), window=20.0) for x in (2.0, 8.0, 15.0, 25.0)]
+        for gauge in gauges:
+            esper.create_entity(gauge)
+        watch(weather, 22.0)
+        got = [gauge.rate for gauge in gauges]
+        assert got == pytest.approx([RATE] * len(gauges), rel=0.04)
         assert got != [RATE] * len(gauges)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import moderngl
@@ -14,7 +15,7 @@ AIR_FLOW = UniformBlock(
     "AirFlow",
     ("air_wind", "vec4"),  # m/s, at the reference height; 1 / that height above the ground, 1/m
     ("air_shape", "vec4"),  # exponent of the growth with height; m, world height of the ground
-    ("air_gain", "vec4"),  # m/s, standard deviation of the octaves; 0: there is no turbulence
+    ("air_gain", "vec4"),  # m/s, standard deviations of the octaves and of all; 0: no turbulence
     ("air_octave", "vec4", 3),  # phases along its axes in rad, wave number in 1/m
 )
 
@@ -71,5 +72,5 @@ def fill_air(block: BlockBuffer, flow: AirFlow) -> None:
     data = block.data
     data["air_wind"] = (*flow.wind, 1.0 / flow.reference)
     data["air_shape"] = (flow.exponent, flow.ground, 0.0, 0.0)
-    data["air_gain"] = (*flow.gains, float(any(flow.gains)))
+    data["air_gain"] = (*flow.gains, math.hypot(*flow.gains))
     data["air_octave"] = flow.octaves

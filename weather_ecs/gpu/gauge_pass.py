@@ -1,7 +1,7 @@
 """Rain gauges on the GPU: counts the drops over every gauge, and reads the counts some frames late.
 
 One texel holds what one container says of one gauge. A gauge's opening is small against the drawn
-drops' distances, so drops are counted in a catch around it, wide enough for a steady reading, and
+drops' distances, so drops are counted in a catch about it, wide enough for a steady reading, and
 related to the part of the catch that is open to the rain; what the area's edge takes off at the
 gauge itself comes in as a factor, and what covers the opening as its exposure. A drop stands for
 `weight` real ones of the water that drops carry on average (`physics.gauge.landing_water`).
@@ -21,28 +21,25 @@ from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass, drops_used
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.footprint import fall_speed_of
 from weather_ecs.physics.front import SETTLED, landing_share
-from weather_ecs.physics.gauge import catch_radius, landing_water
+from weather_ecs.physics.gauge import catch_middle, catch_radius, landing_water
 from weather_ecs.physics.rain_field import RainField
-from weather_ecs.physics.snowfall import smallest_speed, snowfall
-from weather_ecs.physics.wind import height_share
+from weather_ecs.physics.snowfall import snowfall
 
 MAX_GAUGES = 32  # counted; the others read the areas' rates
 MAX_ROWS = 32  # containers
 CATCH, OWN = 128, 32  # points; also in gauge_area.vert
-SLAB = 0.5  # m; also in gauge.glsl
 RING = 4  # frames between counting and reading; half of it until the copy is asked for
-_SLOWEST = 2.0  # m/s, of the smallest drops
 
 GAUGE = UniformBlock(
     "Gauge",
-    ("gauge_place", "vec4", MAX_GAUGES),  # m, of the opening's middle; radius of the catch
-    # m, opening's radius; share of the area's rain there; mean water of its drops over the area's
-    ("gauge_shape", "vec4", MAX_GAUGES),
+    ("gauge_place", "vec4", MAX_GAUGES),  # m, of the opening's middle; radius of it
+    ("gauge_catch", "vec4", MAX_GAUGES),  # m, x and z of the catch's middle; radius of it
+    # Share of the area's rain at the opening; mean water of its drops over the area's.
+    ("gauge_share", "vec4", MAX_GAUGES),
     ("gauge_scale", "vec2"),  # of a texel in clip space
     ("gauge_row", "float"),
     ("gauge_water", "float"),  # mm3, of a drop that lands, on average
     ("gauge_turn", "float"),  # rad, another one every time
-    ("gauge_margin", "float"),  # share of the reach, of the border that the wind blows over
 )
 AREA = ProgramKey(vertex="gauge_area.vert", fragment="gauge.frag")
 DROPS = ProgramKey(vertex="gauge_drops.vert", fragment="gauge.frag")
@@ -157,24 +154,21 @@ class GaugePass:
         areas = view.frame.areas
         area = areas[areas["key"] == container.area]
         field = RainField(area)
-        full, (water, speed, slowest) = float(area["rain_rate"][0]), _landing(container, view)
-        highest = max(gauge.position[1] for gauge in gauges)
-        radii = [_catch_radius(gauge, container, speed) for gauge in gauges]
-        for k, (gauge, radius) in enumerate(zip(gauges, radii, strict=True)):
+        full, (water, speed) = float(area["rain_rate"][0]), _landing(container, view)
+        radii = []
+        for k, gauge in enumerate(gauges):
             share = field.rate(*gauge.position) / full
-            self._block["gauge_place"][k] = (*gauge.position, radius)
             heavier = _water_share(container, gauge.position[1])
-            self._block["gauge_shape"][k] = (math.sqrt(gauge.area / math.pi), share, heavier, 0.0)
-        air = view.frame.profile
-        wind = math.hypot(view.frame.wind[0], view.frame.wind[2])
-        wind *= max(height_share(highest - air.ground, air.reference, air.exponent), 1.0)
-        wind += 2.0 * air.turbulence
+            x, z, radius = _catch(gauge, container, speed)
+            radii.append(radius)
+            self._block["gauge_place"][k] = (*gauge.position, math.sqrt(gauge.area / math.pi))
+            self._block["gauge_catch"][k] = (x, z, radius, 0.0)
+            self._block["gauge_share"][k] = (share, heavier, 0.0, 0.0)
         data = self._block.data
         data["gauge_scale"] = (2.0 / MAX_GAUGES, 2.0 / MAX_ROWS)
         data["gauge_row"] = row
         data["gauge_water"] = water
         data["gauge_turn"] = 0.7548777 * self._count % 1.0 * 2.0 * math.pi
-        data["gauge_margin"] = SLAB * wind / slowest / min(container.shape[:2])
         self._block.upload()
         self._block.bind()
         return radii
@@ -203,13 +197,13 @@ class GaugePass:
         self._ring.clear()
 
 
-def _landing(container: ContainerData, view: ViewData) -> tuple[float, float, float]:
-    """mm3 that what lands carries on average; its mean fall and that of the slowest, m/s."""
+def _landing(container: ContainerData, view: ViewData) -> tuple[float, float]:
+    """mm3 that what lands carries on average; its mean fall, m/s."""
     if container.kind == SNOW:
         air, model = view.frame.air, view.frame.flakes.model
         fall = snowfall(container.rate, 1.0 - air.snow_share, air.temperature, model)
-        return fall.water, fall.speed, smallest_speed(fall)
-    return landing_water(container.rate), fall_speed_of(container.rate), _SLOWEST
+        return fall.water, fall.speed
+    return landing_water(container.rate), fall_speed_of(container.rate)
 
 
 def _joined(
@@ -242,9 +236,17 @@ def _water_share(container: ContainerData, y: float) -> float:
     return water / number if number > 1e-6 else 1.0
 
 
-def _catch_radius(gauge: GaugeData, container: ContainerData, fall_speed: float) -> float:
+def _catch(
+    gauge: GaugeData, container: ContainerData, fall_speed: float
+) -> tuple[float, float, float]:
+    """Middle (x, z) and radius of a gauge's catch among a container's drops, m."""
     (cx, cz, c, s), (forward, lateral, _, height) = container.axis, container.shape
     x, z = gauge.position[0] - cx, gauge.position[2] - cz
-    distance = math.hypot((x * c - z * s) / forward, (x * s + z * c) / lateral)
+    q = (x * c - z * s) / forward, (x * s + z * c) / lateral
     opening, reach = math.sqrt(gauge.area / math.pi), (forward, lateral)
-    return catch_radius(opening, gauge.window, distance, reach, height, container.count, fall_speed)
+    radius = catch_radius(
+        opening, gauge.window, math.hypot(*q), reach, height, container.count, fall_speed
+    )
+    u, w = catch_middle(*q, radius / min(reach))
+    u, w = u * forward, w * lateral
+    return cx + u * c + w * s, cz - u * s + w * c, radius

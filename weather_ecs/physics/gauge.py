@@ -11,6 +11,7 @@ from weather_ecs.physics.drops import diameter_quantile, drop_density, terminal_
 
 WANTED = 40_000.0  # drawn drops that cross the catch in a window, where it may grow for them
 WIDEST = 0.35  # of the container's reach, that the radius of a catch may grow to
+WATCHED = 0.8  # of it, within which drops are counted; in shaders/gauge.glsl too
 
 
 @lru_cache(maxsize=256)
@@ -43,3 +44,22 @@ def catch_radius(
     crossings = density * fall_speed / height * window
     wanted = math.sqrt(WANTED / (math.pi * max(crossings, 1e-9)))
     return max(min(wanted, WIDEST * min(reach)), opening)
+
+
+def catch_middle(forward: float, lateral: float, radius: float) -> tuple[float, float]:
+    """Where the catch of a gauge lies, in shares of the container's reach, all along its own axes.
+
+    Around the gauge; or, where that would stick out of the half disc in which drops are counted,
+    as near to it as it fits in. Rain is as much there: what covers the gauge itself, and what the
+    area's edge leaves, come in as factors. A gauge outside the container has its catch around it.
+    """
+    away = math.hypot(forward, lateral)
+    if forward < 0.0 or away >= 1.0 or radius > 0.5 * WATCHED:
+        return forward, lateral
+    inner = WATCHED - radius
+    if away > inner:
+        forward, lateral = forward * inner / away, lateral * inner / away
+    if forward < radius:
+        widest = math.sqrt(inner * inner - radius * radius)
+        return radius, min(max(lateral, -widest), widest)
+    return forward, lateral

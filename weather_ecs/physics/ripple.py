@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ..errors import InvalidValueError
 from .checks import count, number
-from .rain_step import hash_unit, hash_word
+from .words import hash_unit, hash_word
 
 LEAST_DAMPING, MOST_DAMPING = 5, 9  # n; a larger one damps less
 UNIT = 30.0  # mm, the amplitude's: the threshold is a fifteenth of the least crater

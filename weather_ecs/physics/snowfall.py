@@ -10,7 +10,6 @@ import numpy as np
 
 from .drops import WATER
 from .snow import (
-    SMALLEST_FLAKE,
     SnowLaw,
     flake_size,
     flake_speed,
@@ -61,11 +60,3 @@ def snowfall(
     if density > 0.0:
         cover = float(snow_extinction(rate)) / (density * 0.25 * math.pi * area)
     return Snowfall(law, density, water, speed, min(cover, 1.0))
-
-
-def smallest_speed(fall: Snowfall) -> float:
-    """m/s, of the slowest flakes, for what must wait for them."""
-    if fall.law.model != "physical":
-        return PAPER_SPEED - 0.2
-    at = (np.arange(_GROWTHS) + 0.5) / _GROWTHS
-    return float(flake_speed(SMALLEST_FLAKE, at, fall.law).min())

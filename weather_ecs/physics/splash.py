@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from .checks import FloatArray
 from .drops import terminal_speed
 from .fall import GRAVITY
-from .rain_step import hash_unit, hash_word
+from .words import hash_unit, hash_word
 
 SURFACE_TENSION = 0.0728  # N/m, water in air at 20 degrees C
 DENSITY = 1000.0  # kg/m3

@@ -19,7 +19,8 @@ from .checks import FloatArray
 from .ellipse import edge_factor
 from .front import SETTLED, Dry, fallen_share
 from .lod import rim_fade, size_factor, weight_shape
-from .rain_step import diameters, fall_speeds, to_container
+from .rain_place import to_container
+from .rain_step import diameters, fall_speeds
 
 LANDED = 1024.0  # m/s upwards: no velocity but the mark of a drop that has hit something
 BOLD = 1.5e-3  # m, from which on a drop may have the look's greatest opacity

@@ -41,6 +41,7 @@ SHARES = tuple(
     math.sqrt(r ** (2.0 / 3.0) / sum(q ** (2.0 / 3.0) for q in RATIOS)) for r in RATIOS
 )  # of the whole standard deviation
 HALF_PI = 0.5 * math.pi
+LAG = 1.0 / (9.8 * math.sqrt(3.0))  # s2/m
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,12 +91,21 @@ def mean_velocity(p: ArrayLike, flow: AirFlow) -> NDArray[np.float32]:
     return (np.asarray(flow.wind, F) * share[:, None]).astype(F)
 
 
-def eddies(p: ArrayLike, flow: AirFlow) -> NDArray[np.float32]:
-    """The turbulence alone at world points (n, 3), m/s."""
+def eddies(p: ArrayLike, flow: AirFlow, speed: ArrayLike | None = None) -> NDArray[np.float32]:
+    """The turbulence alone at world points (n, 3), m/s.
+
+    With `speed`, (n,), m/s: the share of it that a thing takes on which falls through it so fast.
+    Drag makes it follow with the time constant speed / g, and it meets K speed / sqrt(3) rad/s of
+    waves of every direction.
+    """
     at = np.asarray(p, F)
     height = np.maximum(at[:, 1] - F(flow.ground), F(0.0))
     total = np.zeros_like(at)
-    for gain, octave, axes in zip(flow.gains, flow.octaves, FRAMES, strict=True):
+    for given, octave, axes in zip(flow.gains, flow.octaves, FRAMES, strict=True):
+        gain: NDArray | np.float32 = F(given)
+        if speed is not None:
+            lag = F(octave[3]) * np.asarray(speed, F) ** 2 * F(LAG)
+            gain = gain / np.sqrt(lag * lag + F(1.0))[:, None]
         frame, number = axes.astype(F), F(octave[3])
         q = at @ frame * number + np.asarray(octave[:3], F)
         s, c = np.sin(q), np.cos(q)
@@ -103,7 +113,7 @@ def eddies(p: ArrayLike, flow: AirFlow) -> NDArray[np.float32]:
         a = np.minimum(number * height, F(HALF_PI))
         up, level = np.sin(a), np.cos(a)
         x, y, z = u[:, 0], u[:, 1], u[:, 2]
-        total += F(gain) * np.stack([up * x + level * z, up * y, up * z - level * x], axis=1)
+        total += gain * np.stack([up * x + level * z, up * y, up * z - level * x], axis=1)
     return total
 
 

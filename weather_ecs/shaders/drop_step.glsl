@@ -18,6 +18,9 @@
 #include "snow_law.glsl"
 #endif
 #include <block:RainStep>
+#ifndef STEADY_AIR
+#include "drop_entry.glsl"
+#endif
 #ifdef SHELTER
 #include "shelter.glsl"
 #endif
@@ -165,10 +168,15 @@ bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
         p += motion * dt;
         elsewhere = keep_in_container(id, s, motion.xz * dt, p);
     }
-    if (elsewhere) {
-        landed = false;
-        motion = air_velocity(p) + own;
-    }
+#ifdef STEADY_AIR
+    if (elsewhere) motion = drift;
+#else
+    // A container that turns or grows has other places that are new; there is a map for these.
+    bool sought = id < rain_fresh && air_gain.w > 0.0
+        && from_axis.zw == to_axis.zw && from_shape == to_shape;
+    if (elsewhere) motion = come_in(id, s, own, sought, p);
+#endif
+    landed = landed && !elsewhere;
 #ifdef SHELTER
     vec3 m = shelter_place(p);
     if (!landed && in_shelter_map(m) && below_texel(m) > 0.0) {

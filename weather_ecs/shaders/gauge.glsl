@@ -1,6 +1,5 @@
-// Rain gauges: what a container's drops say of the rain through their planes. place = the opening's
-// middle and the radius of the catch, shape = the opening's own radius, the share of the area's rain
-// that falls there, the mean water of its drops over that of the area's, 0. Needs the block RainDraw of the container.
+// Rain gauges: what a container's drops say of the rain through their planes. Needs the block RainDraw
+// of the container.
 #include "container.glsl"
 #include <block:RainDraw>
 #include <block:Gauge>
@@ -17,7 +16,7 @@ vec4 gauge_texel(int gauge)
     return vec4((vec2(gauge, gauge_row) + 0.5) * gauge_scale - 1.0, 0.0, 1.0);
 }
 
-// Whether rain reaches a place of the plane.
+// Whether rain reaches a place.
 bool gauge_open(vec3 p)
 {
 #ifdef SHELTER
@@ -28,7 +27,7 @@ bool gauge_open(vec3 p)
 #endif
 }
 
-// Whether drops of every size reach a place of the plane past whatever is near: in wind small ones
+// Whether drops of every size reach a place past whatever is near: in wind small ones
 // slant in more than the mean fall, and behind a roof fewer of them land than of the large ones.
 bool gauge_clear(vec3 p)
 {
@@ -50,12 +49,10 @@ bool gauge_clear(vec3 p)
     return true;
 }
 
-// Whether the container's drops tell of a place of the plane: not at its rim, where few of them
-// stand for many, nor so close to its border that the wind blows them in from outside.
+// Whether the container's drops tell of a place: not at its rim, where few of them stand for many.
 bool gauge_watched(vec3 p)
 {
     vec2 q = to_container(p.xz, container_axis, container_shape.xy);
     float rise = p.y - container_shape.z;
-    return q.x > gauge_margin && length(q) < 0.8 - gauge_margin
-        && rise > 0.0 && rise + GAUGE_SLAB < container_shape.w;
+    return q.x > 0.0 && length(q) < 0.8 && rise > 0.0 && rise < container_shape.w;
 }

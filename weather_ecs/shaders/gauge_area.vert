@@ -15,11 +15,15 @@ void main()
     bool own = gl_VertexID >= CATCH;
     int k = own ? gl_VertexID - CATCH : gl_VertexID;
     float share = (float(k) + 0.5) / float(own ? OWN : CATCH);
-    float radius = own ? gauge_shape[gl_InstanceID].x : gauge.w;
+    vec4 wide = gauge_catch[gl_InstanceID];
+    float radius = own ? gauge.w : wide.z;
     float angle = gauge_turn + 2.3999632 * float(k);
-    vec3 p = gauge.xyz + radius * sqrt(share) * vec3(cos(angle), 0.0, sin(angle));
+    vec3 p = own ? gauge.xyz : vec3(wide.x, gauge.y, wide.y);
+    p.xz += radius * sqrt(share) * vec2(cos(angle), sin(angle));
+    // The opening is level, the catch as high as the slab.
+    if (!own) p.y += GAUGE_SLAB * fract(0.61803399 * float(k) + gauge_turn);
     if (own ? !gauge_open(p) : !gauge_watched(p) || !gauge_clear(p)) return;
     if (own) vs_sum.z = 1.0 / float(OWN);
-    else vs_sum.y = 3.14159265 * gauge.w * gauge.w / float(CATCH);
+    else vs_sum.y = 3.14159265 * radius * radius / float(CATCH);
     gl_Position = gauge_texel(gl_InstanceID);
 }

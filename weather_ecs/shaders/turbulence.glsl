@@ -44,6 +44,18 @@ vec3 eddies(vec3 p)
     return eddies_of(0, p, height) + eddies_of(1, p, height) + eddies_of(2, p, height);
 }
 
+// Of the eddies of each octave, the share that a thing takes on which falls through them at `speed`:
+// drag makes it follow with the time constant speed / 9.8, and it meets so many waves a second, of
+// directions of which the vertical is a third.
+vec3 eddies_felt(vec3 p, float speed)
+{
+    float height = max(p.y - air_shape.y, 0.0);
+    vec3 lag = vec3(air_octave[0].w, air_octave[1].w, air_octave[2].w) * (speed * speed * 0.0589145);
+    vec3 felt = inversesqrt(lag * lag + 1.0);
+    return eddies_of(0, p, height) * felt.x + eddies_of(1, p, height) * felt.y
+        + eddies_of(2, p, height) * felt.z;
+}
+
 // At a place of the world, now, m/s. STEADY_AIR: it is the same everywhere, as in a calm. A variant
 // of its own, because many compilers work out both sides of a branch for every drop.
 vec3 air_velocity(vec3 p)
