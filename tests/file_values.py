@@ -84,7 +84,14 @@ def _made(kind: type[Component], values: dict[str, Any], needed: tuple[str, ...]
         return kind(**{name: values[name] for name in needed})
 
 
-ROOTS = component(CloudRoot)
+FEW = st.integers(0, 9)  # levels and seeds: clouds of many thousands are another test's affair
+ROOTS = component(
+    CloudRoot,
+    reproductions_min=FEW,
+    reproductions_max=FEW.map(lambda levels: levels + 9),
+    seeds_start=FEW,
+    seeds_end=FEW,
+)
 SEEDS = component(CloudSeed, roots=st.lists(ROOTS, max_size=2), images=IMAGES)
 MODELS = component(
     CloudModel, name=NAMES, seeds=st.lists(SEEDS, min_size=1, max_size=3), images=IMAGES

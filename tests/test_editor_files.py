@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from tests.file_values import contents
@@ -199,7 +199,7 @@ def test_an_older_version_is_written_as_the_present_one(tmp_path, files):
     assert load_clouds(path).fog is not None
 
 
-@settings(QUICK, max_examples=25)
+@settings(QUICK, max_examples=25, phases=[Phase.generate])
 @given(contents(), contents(), st.data())
 def test_any_change_is_written_and_comments_stay(before, after, data):
     """Parts of two files, in any mixture, over a text with a comment on every line."""

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 from weather_ecs import CloudFile
-from weather_ecs.cloud_files import VERSION, read_content, text_of
+from weather_ecs.cloud_files import VERSION, check_content, read_content, text_of
 from weather_ecs.components import SkyLayer
 from weather_ecs.components._base import Component
 from weather_ecs.editor.toml_tree import Node, Tree, far_comments, made_node
@@ -30,37 +31,43 @@ _MOST_PAIRS = 100_000  # compared field by field; of more, the order alone count
 def kept_text(name: str, text: str, before: CloudFile, content: CloudFile) -> str:
     """What to write for `content` where the file said `text`, which was `before`.
 
-    Raises WeatherFileError for a content that no file can hold.
+    Raises InvalidValueError or WeatherFileError for a content that no file can hold.
     """
-    plain = text_of(name, content)
     if not text.strip():
-        return plain
+        return text_of(name, content)
+    check_content(content)
     wanted = document_of(content)
     tree = Tree(text, _known)
-    _Merge(tree, tomllib.loads(text)).run(document_of(before), wanted)
+    _Merge(tree, text).run(document_of(before), wanted)
     kept = tree.text()
     try:
         if repr(document_of(read_content(name, kept))) == repr(wanted):
             return kept
     except WeatherFileError:
         pass
-    return _opening(text) + plain
+    return _opening(text) + text_of(name, content)
 
 
 class _Merge:
-    def __init__(self, tree: Tree, raw: Table) -> None:
-        self._tree, self._raw, self._end = tree, raw, tree.newline
+    def __init__(self, tree: Tree, text: str) -> None:
+        self._tree, self._text, self._end = tree, text, tree.newline
+
+    @cached_property
+    def _raw(self) -> Table:
+        """The text as Python reads it: only wanted for tables that are written in a line."""
+        return tomllib.loads(self._text)
 
     def run(self, before: Table, after: Table) -> None:
         root = self._tree.root
-        if self._raw["version"] != VERSION:
+        version = root.entry("version")
+        if version is None or version.value != str(VERSION):
             root.set("version", VERSION, self._end)
         if before.get("quality") != after.get("quality"):
             root.set("quality", after.get("quality"), self._end)
         if repr(before.get("extra")) != repr(after.get("extra")):
             self._extra(root, after.get("extra"))
         for key in (*MANY, *ONE):
-            self._part(root, (), self._raw, key, before.get(key), after.get(key), key in MANY)
+            self._part(root, (), key, before.get(key), after.get(key), key in MANY)
 
     def _extra(self, root: Node, table: Table | None) -> None:
         """Another table of the game's own: nothing is known of it, so it is written anew."""
@@ -69,16 +76,14 @@ class _Merge:
         if table:
             self._add(root, made_node(("extra",), table, self._end, _no, repeated=False))
 
-    def _part(
-        self, node: Node, path: Path, raw: Table, key: str, before: Any, after: Any, many: bool
-    ) -> None:
+    def _part(self, node: Node, path: Path, key: str, before: Any, after: Any, many: bool) -> None:
         """One field of a table that is tables itself: one of them, or a list."""
         if repr(before) == repr(after):
             return
         inline = node.inline(key)
         if inline:
             node.entries = [entry for entry in node.entries if entry not in inline]
-            value = raw[key]
+            value = self._value((*path, key))
             items = value if many else [value]
             for index, item in enumerate(items):
                 place = (*path, key, index) if many else (*path, key)
@@ -90,7 +95,6 @@ class _Merge:
         place = (*path, key)
         known = {each.path: each for each in node.nodes}
         places = [(*place, index) if many else place for index in range(len(old))]
-        raws = raw.get(key, []) if many else [raw.get(key, {})]
         made: list[Node] = []
         pairs = match(old, new)
         for item, at in zip(new, pairs, strict=True):
@@ -100,17 +104,23 @@ class _Merge:
                 made.append(fresh)
             else:
                 own = known[places[at]]
-                self._table(own, places[at], raws[at], old[at], item)
+                self._table(own, places[at], old[at], item)
                 made.append(own)
         self._put(node, [known[at] for at in places if at in known], made)
 
-    def _table(self, node: Node, path: Path, raw: Table, before: Table, after: Table) -> None:
+    def _value(self, path: Path) -> Any:
+        value: Any = self._raw
+        for part in path:
+            value = value[part]
+        return value
+
+    def _table(self, node: Node, path: Path, before: Table, after: Table) -> None:
         """Bring a table up to what it is to say."""
         kind = _kind(path)
         inside = _inside(kind)
         for key in dict.fromkeys((*before, *after)):
             if key in inside:
-                self._part(node, path, raw, key, before.get(key), after.get(key), key != CLIMATE)
+                self._part(node, path, key, before.get(key), after.get(key), key != CLIMATE)
             elif repr(before.get(key)) != repr(after.get(key)):
                 node.set(key, after.get(key), self._end)
 
