@@ -26,7 +26,13 @@ from weather_ecs.file_content import MANY, ONE
 T = TypeVar("T")
 
 # What can be chosen, and the list of the content that it is in.
-TOP = {"model": "models", "cloud": "clouds", "layer": "layers", "area": "rain_areas"}
+TOP = {
+    "model": "models",
+    "cloud": "clouds",
+    "layer": "layers",
+    "area": "rain_areas",
+    "wind": "winds",
+}
 WHAT = (*TOP, "seed", "root", "sky")
 
 
@@ -40,6 +46,7 @@ class Selection(Protocol):
     layer: int
     sky: int
     area: int
+    wind: int
 
 
 def chosen(content: CloudFile, what: str, where: Selection) -> Component | None:
