@@ -316,3 +316,14 @@ def test_bad_input(ctx: moderngl.Context) -> None:
         weather.sky()
     with Weather(context=ctx) as weather, pytest.raises(InvalidValueError, match="observer"):
         weather.sky(observer=3)  # type: ignore[arg-type]
+
+
+def test_closed_clouds_leave_no_sun_for_a_rainbow(stage: Stage) -> None:
+    stage.air.overcast = 0.0
+    strengths = []
+    for overcast in (0.0, 0.6, 1.0):
+        stage.weather.change_to(WholeWeather("so", 0.0, overcast=overcast), 0.0)
+        data = stage.weather._frame().atmosphere
+        assert data is not None
+        strengths.append(data.rainbow)
+    assert strengths[0] == 1.0 > strengths[1] > 0.7 and strengths[2] == 0.0

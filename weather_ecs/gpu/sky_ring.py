@@ -17,7 +17,7 @@ from weather_ecs.physics.rain_ahead import bow_strength, rain_along
 DRAW = ProgramKey(vertex="sky_ring.vert", fragment="sky_ring.frag")
 AROUND = 96  # segments of a ring
 PARTS = 32  # of the half of it that is above
-HALO_LIGHT, BOW_LIGHT = 0.15, 0.30  # at full strength, beside a sun of 1 and as it is encoded
+HALO_LIGHT, BOW_LIGHT = 0.15, 0.21  # at full strength, beside a sun of 1 and as it is encoded
 _FORMAT = "4f4 3f4"
 
 

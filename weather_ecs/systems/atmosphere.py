@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import esper
@@ -73,18 +74,18 @@ class Daylight:
     def _update(self, air: Atmosphere, state: WeatherState) -> None:
         time = _moved(air, state.clock.remainder)
         time = min(max(math.floor(time / QUANTUM + 0.5) * QUANTUM, FIRST), LAST)
-        overcast, haze = _cover(air, state)
+        overcast, haze, closed = _cover(air, state)
         halo = air.halo if air.halo is not None or not state.drawn else _cirrostratus(state)
         look = (air.latitude, air.longitude, air.turbidity, air.exposure, air.adaptation)
         shown = (air.draw, air.stars, air.disc, air.rainbow, halo, state.drawn)
-        key, fog = (time, overcast, haze, look, shown), _fog_depth(state)
+        key, fog = (time, overcast, haze, closed, look, shown), _fog_depth(state)
         if key == self._key and fog == self._fog:
             return
         if key != self._key:
             self._key = key
             self._heaven = heaven = _heaven(air, time, overcast, haze)
             data = _data(air, time, overcast, haze, halo or 0.0, heaven) if state.drawn else None
-            self.data = data
+            self.data = None if data is None else replace(data, rainbow=data.rainbow * (1 - closed))
         self._fog = fog
         self.light = _light(self._heaven, fog)
 
@@ -99,15 +100,18 @@ def covered_by(overcast: float) -> float:
     return 0.85 * overcast**3
 
 
-def _cover(air: Atmosphere, state: WeatherState) -> tuple[float, float]:
-    """What covers the sky besides the clouds there are, 0 to 1, and its haze's depth."""
+def _cover(air: Atmosphere, state: WeatherState) -> tuple[float, float, float]:
+    """What covers the sky besides the clouds there are, 0 to 1; its haze's depth; and how little
+    of the sun the clouds of a whole weather leave to the rain, 0 to 1.
+    """
     course = state.course
     whole = None if course is None else course.at(state.clock.steps)
-    haze = 0.0 if whole is None else haze_depth(round(whole.haze * STEPS) / STEPS)
-    if air.overcast is not None:
-        return air.overcast, haze
-    share = covered(oldest_state(state) or 0.0) if whole is None else covered_by(whole.overcast)
-    return round(share * STEPS) / STEPS, haze
+    if whole is None:
+        haze, closed, share = 0.0, 0.0, covered(oldest_state(state) or 0.0)
+    else:
+        haze = haze_depth(round(whole.haze * STEPS) / STEPS)
+        closed, share = round(whole.overcast**3 * STEPS) / STEPS, covered_by(whole.overcast)
+    return round(share * STEPS) / STEPS if air.overcast is None else air.overcast, haze, closed
 
 
 def _fog_depth(state: WeatherState) -> float:
