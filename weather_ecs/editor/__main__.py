@@ -27,6 +27,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ValueError:
         parser.error(f"--size: {given.size!r}: allowed: WxH, each 1 to 16384, as 1280x720")
     try:
+        import pyglet
+
+        pyglet.options.debug_gl = False  # an error of OpenGL shows in a picture, and ends nothing
         from weather_ecs.editor.app import run
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] not in ("imgui_bundle", "OpenGL", "tomlkit"):

@@ -11,13 +11,13 @@ import moderngl
 import pyglet
 from imgui_bundle import imgui
 
-from weather_ecs.editor import panels, theme
+from weather_ecs.editor import panels, theme, view
 from weather_ecs.editor.dialogs import Dialogs
 from weather_ecs.editor.document import Document
 from weather_ecs.editor.gui import Gui
 from weather_ecs.editor.help_page import draw_help
-from weather_ecs.editor.layout import Box, boxes, part_of, workspace_of
-from weather_ecs.editor.menu_table import WORKSPACES, menus_of
+from weather_ecs.editor.layout import GAP, Box, boxes, part_of, workspace_of
+from weather_ecs.editor.menu_table import WORKSPACES, commands_of, menus_of
 from weather_ecs.editor.menus import draw_bar, press_keys
 from weather_ecs.editor.panels import Entry
 from weather_ecs.editor.session import Session
@@ -33,6 +33,7 @@ _FIXED = (
     | imgui.WindowFlags_.no_title_bar
     | imgui.WindowFlags_.no_saved_settings
     | imgui.WindowFlags_.no_bring_to_front_on_focus
+    | imgui.WindowFlags_.no_background
 )
 
 
@@ -55,6 +56,7 @@ class EditorWindow(pyglet.window.Window):
         self._ready = True
         self._caption = ""
         self._helps = False
+        self.commands = commands_of(self)
         if path is not None and not self.session.load(Path(path)):
             self.session.document.path = None
         self.set_visible(True)
@@ -109,7 +111,10 @@ class EditorWindow(pyglet.window.Window):
         screen.use()
         if width > 0 and height > 0:
             screen.viewport = (0, 0, width, height)
-            screen.clear(*theme.BACK)
+            self.shared.gl.scissor = None
+            screen.clear(*theme.PANEL)
+            view.copy_pictures(height)
+            screen.use()
         self.gui.end(seen=width > 0 and height > 0)
         if self.session.closing:
             pyglet.clock.schedule_once(lambda _dt: self.shut(), 0.0)
@@ -149,6 +154,7 @@ class EditorWindow(pyglet.window.Window):
         ]
         below = any(part_of(entry.place) == "below" for entry, _ in here)
         parts = boxes(size.x, size.y, imgui.get_frame_height() + 12.0, below=below)
+        _draw_gaps(parts, size.x, below=below)
         for name, box in parts.items():
             mine = [(entry, panel) for entry, panel in here if part_of(entry.place) == name]
             if name == "status":
@@ -206,6 +212,23 @@ class EditorWindow(pyglet.window.Window):
         """The first file that was let go over the window is opened."""
         if self._ready and paths:
             self.session.open_path(Path(paths[0]))
+
+
+def _draw_gaps(parts: dict[str, Box], width: float, *, below: bool) -> None:
+    """Darker stripes between the parts: the ground is that of the panels."""
+    lines = imgui.get_background_draw_list()
+    color = theme.packed(theme.BACK)
+    left, view_box, status = parts["left"], parts["view"], parts["status"]
+    stripes = [
+        Box(left.width, left.y, GAP, left.height),
+        Box(parts["right"].x - GAP, left.y, GAP, left.height),
+        Box(0.0, status.y - GAP, width, GAP),
+    ]
+    if below:
+        bottom = view_box.y + view_box.height
+        stripes.append(Box(view_box.x, bottom, view_box.width, GAP))
+    for x, y, wide, high in stripes:
+        lines.add_rect_filled(imgui.ImVec2(x, y), imgui.ImVec2(x + wide, y + high), color)
 
 
 class _Window:

@@ -18,6 +18,7 @@ from weather_ecs.editor.document import Document
 from weather_ecs.editor.ground import Ground
 from weather_ecs.editor.marks import Marks
 from weather_ecs.editor.shared import Shared
+from weather_ecs.editor.sharpness import Sharpness
 from weather_ecs.editor.target import Target
 from weather_ecs.editor.view_bar import draw_bar
 
@@ -40,6 +41,7 @@ class CloudView:
         self._marked: tuple[Any, ...] = ()
         self._seen: tuple[Any, ...] = ()
         self._unsettled = SETTLING  # s in which the light of the picture still changes
+        self._sharpness = Sharpness()
         self._generation = -1
         self._gesture = False
 
@@ -50,8 +52,7 @@ class CloudView:
         rect = view.space_left()
         if rect.width < 2.0 or rect.height < 2.0:
             return
-        if self.stage.show(model, shared.number):
-            self._unsettled = SETTLING
+        self.stage.show(model, shared.number)
         if self.stage.light(shared.sunlight, plain=shared.modes.plain):
             self._unsettled = SETTLING
         self._begin_anew(document, shared, rect)
@@ -87,14 +88,16 @@ class CloudView:
         where = (*camera.target.tolist(), camera.distance, camera.yaw, camera.pitch, camera.fov)
         choice = (shared.selection.seed, shared.selection.root)
         seen = (model, shared.number, where, rect.pixels, modes, choice)
-        if seen == self._seen and self._unsettled < 0.0:
+        moves = seen != self._seen or self._unsettled > 0.0
+        if not self._sharpness.wants(shared.dt, moves=moves):
             return
+        pixels = self._sharpness.pixels(rect.pixels)
         self._seen = seen
         self.drawn += 1
         self.stage.step(min(shared.dt, 0.1))
         aspect = rect.aspect
         sight, depth = camera.view(_ORIGIN), camera.projection(aspect)
-        target = self.target.use(rect.pixels)
+        target = self.target.use(pixels)
         target.clear(*theme.BACK, depth=1.0)
         world = depth @ sight
         self._ground.draw(self.stage.weather, world, camera.eye() + _ORIGIN, grid=modes.grid)
@@ -105,8 +108,8 @@ class CloudView:
             if marked[0] is not (self._marked or (None,))[0] or marked[1:3] != self._marked[1:3]:
                 self._marked = marked
                 self._marks.take(sketch(posed, model, modes, *choice))
-            self.target.use(rect.pixels)
-            self._marks.draw(depth @ camera.view(), rect.pixels)
+            self.target.use(pixels)
+            self._marks.draw(depth @ camera.view(), pixels)
 
     def _edit_by_gizmo(self, document: Document, shared: Shared, rect: view.Rect) -> bool:
         """Let the mouse move or size the chosen seed; whether it does."""

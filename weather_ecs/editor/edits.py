@@ -58,6 +58,12 @@ def copy(document: Document, shared: Shared) -> None:
         shared.say(f"Copied a {clipboard.kind_name((thing,))}")
 
 
+def cut(document: Document, shared: Shared) -> None:
+    """Copy it, and take it away."""
+    copy(document, shared)
+    delete(document, shared)
+
+
 def paste(document: Document, shared: Shared) -> None:
     """Add what is on the clipboard: seeds to the chosen model, roots to the chosen seed."""
     try:

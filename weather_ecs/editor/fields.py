@@ -65,15 +65,22 @@ class Field:
         return "\n".join(part for part in (self.help, self.range_text()) if part)
 
 
-@cache
 def info(kind: type[Component], name: str) -> Field:
     """What there is to know about a field. Raises KeyError for one that does not exist."""
+    found: Field = _kept_info(kind, name)
+    return found
+
+
+def _info(kind: type[Component], name: str) -> Field:
     label, unit, words, *soft = TEXTS[kind][name]
     entry = next(entry for entry in fields(kind) if entry.name == name)  # type: ignore[arg-type]
     limits = limits_of(kind.checks[name]) or _LIMITLESS
     default = entry.default if isinstance(entry.default, (int, float, str, tuple)) else None
     low, high = soft if soft else (limits.low, limits.high)
     return Field(name, label, unit, words, default, limits, (low, high))
+
+
+_kept_info: Any = cache(_info)  # to mypy a class of components has no hash
 
 
 def _number(value: float) -> str:

@@ -19,7 +19,7 @@ from weather_ecs.editor.target import Target
 from weather_ecs.editor.view_bar import tip_of_last
 
 MOST = 12  # pictures in a row at most
-PAUSE = 0.25  # s after a change of the model before the pictures are taken again
+PAUSE = 0.2  # s after a change of the model before pictures are taken
 _ORIGIN = np.array([0.0, HEIGHT, 0.0])
 
 
@@ -54,7 +54,8 @@ class Gallery:
             return
         if model is not self._model:
             self._model, self._waited = model, 0.0
-        self._waited += shared.dt
+        elif not imgui.is_any_item_active():
+            self._waited += shared.dt
         columns = self._columns()
         wide = (room.width - 6.0 * (columns - 1)) / columns
         for column in range(columns):
@@ -104,8 +105,7 @@ class Gallery:
             wanted = (model, self._first + column, *look)
             if column < len(self._taken) and self._taken[column] == wanted:
                 continue
-            waits = column < len(self._taken) and self._taken[column] is not None
-            if waits and self._waited < PAUSE:
+            if self._waited < PAUSE:
                 return
             while len(self._targets) <= column:
                 self._targets.append(Target(self._gl))

@@ -9,13 +9,12 @@ from typing import Any
 
 import OpenGL
 
-OpenGL.ERROR_CHECKING = False  # a query after each of the renderer's calls costs milliseconds
+# Each of the renderer's calls is else followed by queries and checks, which cost milliseconds.
+OpenGL.ERROR_CHECKING = OpenGL.ARRAY_SIZE_CHECKING = False
 
 from imgui_bundle import imgui, implot  # noqa: E402
 from imgui_bundle.imguizmo import im_guizmo  # noqa: E402
-from imgui_bundle.python_backends.pyglet_backend import (  # noqa: E402
-    PygletProgrammablePipelineRenderer,
-)
+from imgui_bundle.python_backends import pyglet_backend  # noqa: E402
 from pyglet import gl  # noqa: E402
 from pyglet.window import key, mouse  # noqa: E402
 
@@ -25,7 +24,10 @@ LONGEST = 0.25  # s of a frame that imgui is told of
 _BUTTONS = ((mouse.LEFT, 0), (mouse.RIGHT, 1), (mouse.MIDDLE, 2))
 
 
-class _Backend(PygletProgrammablePipelineRenderer):  # type: ignore[misc]
+_Renderer: Any = pyglet_backend.PygletProgrammablePipelineRenderer  # type: ignore[attr-defined]
+
+
+class _Backend(_Renderer):  # type: ignore[misc]
     """The bundle's own, but that a drag with several buttons presses none anew."""
 
     def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, *_rest: int) -> None:

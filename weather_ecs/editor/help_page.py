@@ -38,14 +38,20 @@ def draw_help(menus: Menus, opened: bool) -> bool:
     if not imgui.is_popup_open(name):
         imgui.open_popup(name)
     size = imgui.get_io().display_size
-    imgui.set_next_window_size(imgui.ImVec2(min(900.0, 0.96 * size.x), min(620.0, 0.94 * size.y)))
+    imgui.set_next_window_size(imgui.ImVec2(min(1120.0, 0.97 * size.x), min(640.0, 0.95 * size.y)))
     middle = imgui.ImVec2(0.5 * size.x, 0.5 * size.y)
     imgui.set_next_window_pos(middle, imgui.Cond_.always, imgui.ImVec2(0.5, 0.5))
     flags = imgui.WindowFlags_.no_resize | imgui.WindowFlags_.no_move
     shown, stays = imgui.begin_popup_modal(name, True, flags)
     if not shown:
         return False
-    if imgui.begin_table("page", 2, imgui.TableFlags_.sizing_stretch_same):
+    listed = [
+        (item.keys, item.label.rpartition("###")[2]) for item in all_items(menus) if item.keys
+    ]
+    half = (len(listed) + 1) // 2
+    if imgui.begin_table("page", 3, imgui.TableFlags_.sizing_stretch_prop):
+        for name, weight in (("mouse", 1.3), ("keys", 1.0), ("more", 1.0)):
+            imgui.table_setup_column(name, imgui.TableColumnFlags_.width_stretch, weight)
         imgui.table_next_column()
         _pairs("Mouse", _MOUSE, 0.44)
         imgui.dummy(imgui.ImVec2(0.0, 4.0))
@@ -55,10 +61,9 @@ def draw_help(menus: Menus, opened: bool) -> bool:
             imgui.text_wrapped(line)
             imgui.pop_style_color()
         imgui.table_next_column()
-        listed = [
-            (item.keys, item.label.rpartition("###")[2]) for item in all_items(menus) if item.keys
-        ]
-        _pairs("Keys", listed, 0.38)
+        _pairs("Keys", listed[:half], 0.44)
+        imgui.table_next_column()
+        _pairs("More keys", listed[half:], 0.44)
         imgui.end_table()
     closes = any(imgui.is_key_pressed(key) for key in (imgui.Key.escape, imgui.Key.f1))
     if closes and not imgui.is_window_appearing():

@@ -42,6 +42,12 @@ def choose(name: str, items: Sequence[tuple[str, str]], index: int, rows: float)
     return index
 
 
+def clicked_into() -> bool:
+    """Whether the mouse was pressed in the window that is being drawn, or in a part of it."""
+    over = imgui.is_window_hovered(imgui.HoveredFlags_.child_windows)
+    return bool(over and imgui.is_mouse_clicked(0))
+
+
 def buttons(*labels: tuple[str, bool, str]) -> str | None:
     """Buttons of equal width on a line: label, whether it can be pressed, tip; the one pressed."""
     gap = 4.0

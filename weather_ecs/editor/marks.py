@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 from importlib import resources
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -101,11 +102,12 @@ class Marks:
 
     def release(self) -> None:
         """Give everything back."""
-        for part in (*self._arrays, *self._buffers, *self._programs):
+        parts: tuple[Any, ...] = (*self._arrays, *self._buffers, *self._programs)
+        for part in parts:
             part.release()
 
 
-def program(gl: moderngl.Context, name: str) -> moderngl.Program:
+def program(gl: moderngl.Context, name: str) -> Any:
     """The editor's own program of this name; the caller releases it."""
     return gl.program(vertex_shader=_text(f"{name}.vert"), fragment_shader=_text(f"{name}.frag"))
 

@@ -14,11 +14,11 @@ _KEYS = {
     "Ctrl": imgui.Key.mod_ctrl,
     "Shift": imgui.Key.mod_shift,
     "Alt": imgui.Key.mod_alt,
-    "Del": imgui.Key.delete,
-    "Home": imgui.Key.home,
-    "PgDn": imgui.Key.page_down,
-    "PgUp": imgui.Key.page_up,
-    "Space": imgui.Key.space,
+    "PageDown": imgui.Key.page_down,
+    "PageUp": imgui.Key.page_up,
+    "Left": imgui.Key.left_arrow,
+    "Right": imgui.Key.right_arrow,
+    ".": imgui.Key.period,
 }
 
 
@@ -31,6 +31,7 @@ class Item(NamedTuple):
     enabled: bool = True
     ticked: bool = False
     draw: Act | None = None  # draws a menu of its own in place of an act
+    help: str = ""
 
 
 LINE = Item("")
@@ -55,7 +56,7 @@ def draw_bar(menus: Menus, workspaces: list[tuple[str, str]], current: str) -> s
         color = theme.ACCENT_LOW if on else theme.BACK
         imgui.push_style_color(imgui.Col_.button, theme.vec4(color))
         imgui.set_cursor_pos_y(4.0)
-        if imgui.button(title, imgui.ImVec2(0.0, 22.0)):
+        if imgui.button(f"{title}##workspace", imgui.ImVec2(0.0, 22.0)):
             current = name
         imgui.pop_style_color()
     imgui.end_main_menu_bar()
@@ -72,10 +73,18 @@ def _draw_item(item: Item) -> None:
     elif imgui.menu_item(item.label, item.keys.partition(",")[0], item.ticked, item.enabled)[0]:
         assert item.act is not None
         item.act()
+    if item.help and imgui.begin_item_tooltip():
+        imgui.text_unformatted(item.help)
+        imgui.end_tooltip()
 
 
 def press_keys(menus: Menus) -> None:
-    """Do what a key stands for that was pressed; keys of a text that is typed are that text's."""
+    """Do what a key stands for that was pressed.
+
+    Keys of a text that is typed are that text's, and those of a flight are the camera's.
+    """
+    if imgui.is_mouse_down(1):
+        return
     for item in all_items(menus):
         if item.keys and item.act is not None and item.enabled:
             for keys in item.keys.split(","):

@@ -70,11 +70,14 @@ def drag_pair(thing: Thing, label: str, low: str, high: str, *, whole: bool = Fa
     """A least and a greatest value in two fields; neither passes the other."""
     least, most = getattr(thing.part, low), getattr(thing.part, high)
     with _row(thing, label, (low, high)):
-        name = f"##{low}"
+        name, shown = f"##{low}", _format(thing, low)
+        changed: bool
+        a: float
+        b: float
         if whole:
             changed, a, b = imgui.drag_int_range2(name, least, most, 0.05, 0, 0, "%d", "%d")
         else:
-            step, shown = max(0.01 * most, 0.05), _format(thing, low)
+            step = max(0.01 * most, 0.05)
             changed, a, b = imgui.drag_float_range2(name, least, most, step, 0.0, 0.0, shown, shown)
             a, b = round(a, 3), round(b, 3)
         _take(thing, label, changed, (low, high), {low: a, high: b})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import moderngl
 from imgui_bundle import imgui
+from pyglet import gl
 
 LARGEST = 8192  # pixels on a side
 
@@ -26,6 +27,8 @@ class Target:
         """Bind it with this size in pixels, its viewport all of it."""
         size = (min(max(size[0], 1), LARGEST), min(max(size[1], 1), LARGEST))
         if self._framebuffer is None or self.size != size:
+            # Moderngl comes back to what is bound after it has made a framebuffer: not to this one.
+            self._gl.detect_framebuffer(0).use()
             self.release()
             self._color = self._gl.texture(size, 4)
             self._color.filter = (moderngl.LINEAR, moderngl.LINEAR)
@@ -40,6 +43,17 @@ class Target:
         """What imgui shows; upside down: see `view.UPRIGHT`."""
         assert self._color is not None, "nothing has been drawn into it"
         return imgui.ImTextureRef(self._color.glo)
+
+    def copy_to(self, box: tuple[int, int, int, int]) -> None:
+        """Into the window's framebuffer: left, bottom, right, top in its pixels."""
+        if self._framebuffer is None:
+            return
+        gl.glBindFramebuffer(gl.GL_READ_FRAMEBUFFER, self._framebuffer.glo)
+        gl.glBindFramebuffer(gl.GL_DRAW_FRAMEBUFFER, 0)
+        whole = (box[2] - box[0], box[3] - box[1]) == self.size
+        filtered = gl.GL_NEAREST if whole else gl.GL_LINEAR
+        gl.glBlitFramebuffer(0, 0, *self.size, *box, gl.GL_COLOR_BUFFER_BIT, filtered)
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
 
     def read(self) -> bytes:
         """RGB bytes, the lowest row first."""

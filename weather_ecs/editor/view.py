@@ -15,7 +15,6 @@ HELP = (
     "Right button held: look round, with W A S D Q E: fly"
 )
 _LEFT, _RIGHT, _MIDDLE = 0, 1, 2
-_WHITE = 0xFFFFFFFF
 _ALL = (
     imgui.ButtonFlags_.mouse_button_left
     | imgui.ButtonFlags_.mouse_button_right
@@ -51,6 +50,9 @@ class Rect(NamedTuple):
         return max(round(self.width * scale.x), 1), max(round(self.height * scale.y), 1)
 
 
+_pictures: list[tuple[Target, Rect]] = []  # shown in this frame
+
+
 def space_left() -> Rect:
     """What is left of the window that is being drawn."""
     at, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
@@ -58,16 +60,25 @@ def space_left() -> Rect:
 
 
 def show(name: str, target: Target, rect: Rect) -> bool:
-    """The picture as an item that takes the mouse; whether the mouse is over it."""
-    corner = imgui.ImVec2(rect.x, rect.y)
-    far = imgui.ImVec2(rect.x + rect.width, rect.y + rect.height)
-    imgui.get_window_draw_list().add_image_rounded(
-        target.image(), corner, far, *UPRIGHT, _WHITE, 5.0
-    )
-    imgui.set_cursor_screen_pos(corner)
+    """The picture as an item that takes the mouse; whether the mouse is over it.
+
+    It is copied under all widgets at the end of the frame: windows have no ground of their own.
+    """
+    _pictures.append((target, rect))
+    imgui.set_cursor_screen_pos(imgui.ImVec2(rect.x, rect.y))
     imgui.set_next_item_allow_overlap()
     imgui.invisible_button(name, imgui.ImVec2(rect.width, rect.height), _ALL)
     return bool(imgui.is_item_hovered())
+
+
+def copy_pictures(height: int) -> None:
+    """Copy what was shown in this frame into the window that is bound, `height` pixels high."""
+    scale = imgui.get_io().display_framebuffer_scale
+    for target, rect in _pictures:
+        left, right = round(rect.x * scale.x), round((rect.x + rect.width) * scale.x)
+        top, bottom = round(rect.y * scale.y), round((rect.y + rect.height) * scale.y)
+        target.copy_to((left, height - bottom, right, height - top))
+    _pictures.clear()
 
 
 def steer(camera: OrbitCamera, height: float, dt: float, *, busy: bool = False) -> bool:
@@ -96,7 +107,7 @@ def steer(camera: OrbitCamera, height: float, dt: float, *, busy: bool = False) 
             if imgui.is_key_down(key):
                 way[axis] += sign * (4.0 if io.key_shift else 1.0)
         if any(way):
-            camera.fly(*way, dt)
+            camera.fly(way[0], way[1], way[2], dt)
             moved = True
     if imgui.is_item_hovered() and io.mouse_wheel:
         camera.zoom(io.mouse_wheel)

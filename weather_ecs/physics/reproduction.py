@@ -148,7 +148,13 @@ def _each(model: Any, field: str, origin: NDArray[np.intp]) -> FloatArray:
 
 def _images(model: Any, origin: NDArray[np.intp], rng: np.random.Generator) -> NDArray[np.int64]:
     """Images drawn from the lists of the seeds, or the model's where a seed has none."""
-    lists = [image_indices(seed.images or model.images) for seed in model.seeds]
+    known: dict[tuple[str, ...], list[int]] = {}
+    lists = []
+    for seed in model.seeds:
+        names = tuple(seed.images or model.images)
+        if names not in known:
+            known[names] = image_indices(names)
+        lists.append(known[names])
     counts = np.array([len(each) for each in lists])
     starts = np.cumsum(counts) - counts
     drawn = np.minimum(rng.random(len(origin)) * counts[origin], counts[origin] - 1)

@@ -37,7 +37,7 @@ class CloudPanel:
 
     def draw(self, document: Document, shared: Shared) -> None:
         """The whole panel."""
-        if imgui.is_window_focused(imgui.FocusedFlags_.child_windows):
+        if items.clicked_into():
             shared.focus = "model"
         self._choose(document, shared)
         models = document.content.models

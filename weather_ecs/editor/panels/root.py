@@ -36,7 +36,7 @@ class RootPanel:
             for number, root in enumerate(seed.roots, 1)
         ]
         where.root = items.choose("roots", listed, where.root, 3.0)
-        if imgui.is_window_focused(imgui.FocusedFlags_.child_windows):
+        if items.clicked_into():
             shared.focus = "root"
         some = bool(seed.roots)
         pressed = items.buttons(

@@ -39,7 +39,7 @@ class SeedPanel:
         chosen = items.choose("seeds", listed, where.seed, 5.0)
         if chosen != where.seed:
             where.seed, where.root = chosen, 0
-        if imgui.is_window_focused(imgui.FocusedFlags_.child_windows):
+        if items.clicked_into():
             shared.focus = "seed"
         self._change(document, shared, model)
         model = document.content.models[at]
