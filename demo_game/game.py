@@ -6,7 +6,6 @@ import itertools
 import math
 from collections import deque
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import esper
@@ -17,6 +16,7 @@ from demo_game.cloudscape import STEADY, Cloudscape, all_layers, light_layers, s
 from demo_game.collision import Colliders
 from demo_game.compass import compass
 from demo_game.entities import Entities, direction, fog_overhead
+from demo_game.file_weather import FileWeather
 from demo_game.letter import Letter, State
 from demo_game.mood import (
     AIRS,
@@ -24,7 +24,6 @@ from demo_game.mood import (
     WIND_STEP,
     Mood,
     MoodChanger,
-    climate_mood,
     preset_mood,
 )
 from demo_game.place import Place
@@ -37,7 +36,7 @@ from demo_game.skies import Light, SkyChanger, light_of, under_cloud
 from demo_game.tours import Tour
 from demo_game.wholes import CENTER, KEY_TIME, Wholes, next_whole
 from weather_ecs import Weather
-from weather_ecs.components import Climate, Observer, RainArea, SkyLayer
+from weather_ecs.components import Observer, RainArea, SkyLayer
 from weather_ecs.errors import WeatherError
 from weather_ecs.presets import PRESETS, SKIES
 
@@ -50,7 +49,7 @@ MARK, MARKS = 2.0, 60  # s, and how many of them are kept
 HEARD_FROM = 1.0  # m that the player's ears move before the weather is told
 OPENING = 0.25, 0.25  # state and cover of the sky that a game begins under, whatever it rains
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
-SKY_LEAST, SKY_SHARE = 0.02, 0.20  # cover of the sky at large: the rain brings its own clouds
+SKY_LEAST, SKY_SHARE = 0.02, 0.80  # cover of the sky at large: the rain brings its own clouds
 CLOUDS_FROM_TO = 700.0, 2900.0  # m, in which one comes out of them
 SHEET_SHARE = 0.55  # more where the cloud is one sheet
 SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
@@ -82,6 +81,7 @@ class Game:
         tour: Tour | None = None,
         start: tuple[float, float] = START,
         metar: str | None = None,
+        watch: bool = False,
     ) -> None:
         self.settings = settings
         self.time = 0.0  # s of play
@@ -94,6 +94,7 @@ class Game:
         self.history: deque[tuple[float, float]] = deque(maxlen=MARKS)
         self._next_mark = 0.0
         self.report: Any = None  # of METAR, if there is one
+        self.file: FileWeather | None = None  # that gives the weather
         if metar is not None or self._has_whole_play:
             # Theirs is to count from the first frame on.
             self.mood.put(replace(self.mood.current, rain_rate=0.0), METAR)
@@ -133,7 +134,7 @@ class Game:
             if metar is not None:
                 self._report(metar)
             elif not (preset in PRESETS or preset in SKIES or self._has_whole_play):
-                self._load(preset)
+                self._load(preset, watch)
         except WeatherError:
             self.scene.release()
             self._leave_world()
@@ -162,6 +163,8 @@ class Game:
         self.mood.update(dt)
         if self._play is not None:
             self._follow_play(self._play)
+        elif self.file is not None:
+            self._follow_file(self.file, dt)
         elif self._scape.is_running:
             self.mood.follow_climate(self._scape.state)
         whole = self.wholes.mood(self.weather)
@@ -219,6 +222,7 @@ class Game:
 
     def choose_preset(self, name: str) -> str:
         """Change the weather; returns what to tell the player."""
+        self._leave_file()
         self._scape.stop()
         self.mood.choose(name)
         self._leave_whole()
@@ -226,6 +230,7 @@ class Game:
 
     def choose_whole(self, name: str, seconds: float = KEY_TIME) -> str:
         """Change to a whole weather; returns what to tell the player."""
+        self._leave_file()
         self._scape.stop()
         self._scape.show(False)
         self.wholes.go(self.weather, name, seconds, self.mood.current)
@@ -268,18 +273,36 @@ class Game:
         self.scene.release()
         self._leave_world()
 
-    def _load(self, path: str) -> None:
-        """The sky of a file in place of the game's."""
+    def _load(self, path: str, watch: bool) -> None:
+        """The weather of a file in place of the game's."""
         try:
-            entities = self.weather.load(path)
+            self.file = FileWeather(path, watch=watch)
         except WeatherError:
             self.weather.close()
             raise
-        for entity in entities:
-            climate = esper.try_component(entity, Climate)
-            if climate is not None:
-                self._scape.follow(climate)
-        self.mood.put(climate_mood(self._scape.state, WIND_HEADING), Path(path).stem)
+        self._take_file(self.file)
+
+    def _take_file(self, file: FileWeather) -> None:
+        """The file says something new."""
+        self._scape.follow(file.climate)
+        file.set_sky(self.sky.atmosphere)
+        mood = file.mood(self._scape.state, self.mood.target.wind_heading)
+        self.mood.put(mood, file.path.stem)
+        self._light_up()
+
+    def _follow_file(self, file: FileWeather, dt: float) -> None:
+        before, news = file.readings, file.look(dt)
+        if news:
+            self._news.append(news)
+        if file.readings != before:
+            self._take_file(file)
+        mood = file.mood(self._scape.state, self.mood.target.wind_heading)
+        self.mood.follow(mood, file.path.stem)
+
+    def _leave_file(self) -> None:
+        if self.file is not None:
+            self.file.leave()
+        self.file = None
 
     def _report(self, text: str) -> None:
         """The weather of a METAR report, from the start."""
@@ -494,6 +517,8 @@ class Game:
     def _patches(self, mood: Mood) -> list[RainPatch]:
         """Where it rains, as the renderer has it."""
         areas = self._entities.rates(mood)
+        if self.file is not None:
+            areas += [(area, area.rain_rate) for area in self.file.areas]
         whole = self.wholes.area(self.weather)
         if whole is not None:
             areas.append((whole, whole.rain_rate))

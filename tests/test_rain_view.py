@@ -419,6 +419,19 @@ def test_snow_that_begins_fades_in_with_its_water() -> None:
     assert 0.0 < loads[1] < 0.9 * loads[0]
 
 
+def test_a_shower_is_a_darker_curtain_from_outside_and_plain_within() -> None:
+    """Little by little from its rim on; light rain hangs from thin clouds."""
+    wet = frame(area(radii=(60.0, 40.0), rain_rate=25.0), wind=(6.0, 0.0, 0.0))
+    seen = [veils(wet, camera((0.0, 1.7, z), NORTH))[0] for z in np.linspace(0.0, 120.0, 241)]
+    shade, rays = np.array([(veil.cloud, veil.ragged) for veil in seen]).T
+    inside = np.linspace(0.0, 120.0, 241) < 39.0
+    assert not shade[inside].any() and not rays[inside].any()
+    assert (np.diff(shade) >= 0.0).all() and np.diff(shade).max() < 0.03
+    assert shade[-1] > 0.9 and rays[-1] > 0.5 and seen[-1].drift[0] > 0.0
+    thin = frame(area(radii=(60.0, 40.0), rain_rate=0.5))
+    assert 0.0 < veils(thin, camera((0.0, 1.7, 120.0), NORTH))[0].cloud < 0.2
+
+
 def test_rain_is_hidden_by_its_cloud_from_above():
     carried = replace(frame(FAR), carried=frozenset((1,)))
     top = 400.0  # m, the ceiling of every area here

@@ -33,12 +33,12 @@ class DropLook:
     height: float = 20.0  # m, of the near container
     margin: float = 0.75  # m, observer's movement that leaves the container where it is
     size_maximum: float = 8.0  # Eq. 3's factor at the container's rim
-    exposure: float = 1.0 / 24.0  # s, length of the path a streak shows
+    exposure: float = 1.0 / 20.0  # s, length of the path a streak shows
     width: float = 4.0  # factor on the drop's diameter, look only
-    density: float = 3.7  # factor on how much the drops cover: 1 is what nature shows
+    density: float = 7.0  # factor on how much the drops cover: 1 is what nature shows
     brightness: float = 1.6  # factor on the light of the sky that drops show
     opacity: float = 0.6  # greatest opacity of one streak
-    veil: float = 2.5  # factor on the veil's extinction, look only
+    veil: float = 3.5  # factor on the veil's extinction, look only
     fastest: float = 8.0  # m/s, of the observer's own speed that slants the streaks at most
 
 

@@ -16,6 +16,7 @@ from weather_ecs.systems.falls import falls, shown_distance, snow_shown_distance
 _SOFT_TOP = 0.25  # of the height of a cloud's base: in it the rain below becomes dense
 _RAGGED, _FAR = 0.8, 1500.0  # how uneven a shaft is; m from which on it is all of that
 _SHEAR = 0.4  # of the wind: a cloud goes with most of it, and so does what it drops
+_SHADE_RATE = 4.0  # mm/h from which a shower has most of the shade of its cloud
 _RAIN_SPEED, _SNOW_SPEED = 6.0, 1.5  # m/s, of what shows the slant of a shaft
 _OVER = 500.0  # m over a cloud's base from which nothing is seen of its rain
 _BELOW = 300.0  # m under the container and the eye to which a veil hangs
@@ -78,10 +79,25 @@ def _veil(
         snow=snow,
     )
     if key not in frame.carried:
-        return veil
+        return _from_outside(veil, frame, key, container.distance, rate)
     hidden = min(max((eye - ceiling) / _OVER, 0.0), 1.0)
     veil = replace(veil, extinction=(1.0 - hidden) * veil.extinction)
     return _under_cloud(veil, frame, key, container.distance)
+
+
+def _from_outside(
+    veil: VeilData, frame: FrameData, key: int, distance: float, rate: float
+) -> VeilData:
+    """A game's own shower as one comes to it: a curtain with rays, darker for what it hangs from.
+
+    distance: m, to its rim. Inside it is plain: light comes in from all sides.
+    """
+    far = min(distance / veil.shape[1], 1.0)
+    if far <= 0.0:
+        return veil
+    far *= far * (3.0 - 2.0 * far)
+    shade = far * (1.0 - math.exp(-rate / _SHADE_RATE))
+    return replace(_with_rays(veil, frame, key, far), cloud=shade)
 
 
 def _under_cloud(veil: VeilData, frame: FrameData, key: int, distance: float) -> VeilData:
@@ -92,12 +108,19 @@ def _under_cloud(veil: VeilData, frame: FrameData, key: int, distance: float) ->
     far = min(max(distance / _FAR, 0.0), 1.0)
     # The look's factor stands for what a screen shows less of; a whole shaft needs none.
     look = (1.0 - veil.snow) * frame.look.veil + veil.snow * frame.flakes.veil
-    speed = _RAIN_SPEED + veil.snow * (_SNOW_SPEED - _RAIN_SPEED)
     return replace(
-        veil,
+        _with_rays(veil, frame, key, far),
         extinction=veil.extinction * (1.0 + far * (1.0 / max(look, 1.0) - 1.0)),
         cloud=1.0,
         top=_SOFT_TOP * max(veil.span[1], 0.0),
+    )
+
+
+def _with_rays(veil: VeilData, frame: FrameData, key: int, far: float) -> VeilData:
+    """Uneven, slanted by the wind. far: 0 to 1, how much of that is seen."""
+    speed = _RAIN_SPEED + veil.snow * (_SNOW_SPEED - _RAIN_SPEED)
+    return replace(
+        veil,
         ragged=_RAGGED * far,
         phase=key * 0.618034 % 1.0 * 7.0,
         drift=(_SHEAR * frame.wind[0] / speed, _SHEAR * frame.wind[2] / speed),
