@@ -432,8 +432,8 @@ def test_a_veil_in_several_of_a_frame(stage: Stage) -> None:
     view = RainView().view(seen, at, 0, quality(containers=0))
     assert len(view.veils) == 2
     through = np.ones((SIZE[1], SIZE[0]))
-    for veil in view.veils:
-        data = replace(veil, cloud=0.0, ragged=0.0)
+    for each in view.veils:
+        data = replace(each, cloud=0.0, ragged=0.0)
         expected = oracle(at, data)
         assert_same(stage.draw(only(at, data)), expected)
         through *= 1.0 - expected
