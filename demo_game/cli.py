@@ -158,6 +158,11 @@ def build_parser() -> argparse.ArgumentParser:
         "the rain; fog, sleet, snow: the air too",
     )
     add(
+        "--watch",
+        action="store_true",
+        help="in the window, with a file: look at it twice a second, and take what has changed",
+    )
+    add(
         "--metar",
         type=_report,
         metavar="REPORT",
@@ -203,7 +208,10 @@ def build_parser() -> argparse.ArgumentParser:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the game; returns the exit code."""
-    options = build_parser().parse_args(arguments)
+    parser = build_parser()
+    options = parser.parse_args(arguments)
+    if options.watch and not options.preset.lower().endswith(".toml"):
+        parser.error("argument --watch: needs a file to look at, such as --preset evening.toml")
     try:
         return _run(options)
     except KeyboardInterrupt:
@@ -231,6 +239,7 @@ def _run(options: argparse.Namespace) -> int:
             preset=options.preset,
             start=options.start,
             metar=options.metar,
+            watch=options.watch,
         )
     except NoDisplay as reason:
         print(f"demo_game: no window ({reason}); rendering the tour off screen instead")

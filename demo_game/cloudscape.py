@@ -77,10 +77,16 @@ class Cloudscape:
         self.let_rain(True)
         return onwards
 
-    def follow(self, climate: Climate) -> None:
-        """Another climate counts: that of a file."""
-        esper.delete_entity(self._climate_entity, immediate=True)
-        self.climate, self._last = climate, 0.0
+    def follow(self, climate: Climate | None) -> None:
+        """Another climate counts: that of a file; without one the game's own, where it was."""
+        own = esper.entity_exists(self._climate_entity)
+        if climate is not None and climate is not self.climate:
+            if own:
+                esper.delete_entity(self._climate_entity, immediate=True)
+            self.climate, self._last = climate, 0.0
+        elif climate is None and not own:
+            self.climate = Climate(duration=DURATION, elapsed=self.state * DURATION, running=False)
+            self._climate_entity = esper.create_entity(self.climate)
 
     def stop(self) -> None:
         """The mood says what the state is."""

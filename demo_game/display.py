@@ -29,6 +29,7 @@ def make_window(
     preset: str = "heavy",
     start: tuple[float, float] = START,
     metar: str | None = None,
+    watch: bool = False,
     size: tuple[int, int] = (1280, 720),
 ) -> GameWindow:
     """The game's window with the newest OpenGL there is.
@@ -55,7 +56,14 @@ def make_window(
             continue
         surface.close()
         return GameWindow(
-            settings, config, size=size, seed=seed, preset=preset, start=start, metar=metar
+            settings,
+            config,
+            size=size,
+            seed=seed,
+            preset=preset,
+            start=start,
+            metar=metar,
+            watch=watch,
         )
     raise NoDisplay(_reason(reason))
 
@@ -67,10 +75,13 @@ def open_window(
     preset: str = "heavy",
     start: tuple[float, float] = START,
     metar: str | None = None,
+    watch: bool = False,
 ) -> int:
     """Play until the window is closed; returns the exit code."""
     try:
-        window = make_window(settings, seed=seed, preset=preset, start=start, metar=metar)
+        window = make_window(
+            settings, seed=seed, preset=preset, start=start, metar=metar, watch=watch
+        )
     except Abandoned:
         return 0
     try:

@@ -443,6 +443,7 @@ class Game:
     def _overcast(self) -> float:
         mood = self._scenery()
         share = SKY_LEAST + (SKY_SHARE + SHEET_SHARE * mood.closed) * mood.overcast
+        share = min(share, 1.0)
         # Who flies up through the clouds leaves them below.
         low, high = CLOUDS_FROM_TO
         left = min(max((high - self.pose.eye[1]) / (high - low), 0.0), 1.0)

@@ -44,6 +44,7 @@ class GameWindow(pyglet.window.Window):
         preset: str = "heavy",
         start: tuple[float, float] = START,
         metar: str | None = None,
+        watch: bool = False,
     ) -> None:
         self.screen_shown = Screen.START
         self.ready = False
@@ -53,7 +54,7 @@ class GameWindow(pyglet.window.Window):
             *size, caption=TITLE, resizable=True, vsync=True, config=config, visible=False
         )
         try:
-            self._begin(settings, seed, preset, start, metar)
+            self._begin(settings, seed, preset, start, metar, watch)
         except BaseException:
             super().close()
             raise
@@ -65,6 +66,7 @@ class GameWindow(pyglet.window.Window):
         preset: str,
         start: tuple[float, float],
         metar: str | None,
+        watch: bool,
     ) -> None:
         self.set_minimum_size(*SMALLEST)
         self.settings = settings
@@ -84,6 +86,7 @@ class GameWindow(pyglet.window.Window):
             preset=preset,
             start=start,
             metar=metar,
+            watch=watch,
         )
         self.sound = WalkSound(self.game, settings, seed)
         self.menu = pause_menu(

@@ -141,7 +141,14 @@ class Overlay:
                     backend=game.weather.backend,
                     position=game.pose.eye,
                     weather=game.wholes.status(game.weather),
-                    report=() if game.report is None else summary(game.report),
+                    report=_report(game),
                 )
             )
         view.draw()
+
+
+def _report(game: Game) -> list[str]:
+    """What was understood of a METAR report, or what is the matter with a file."""
+    if game.file is not None:
+        return game.file.lines()
+    return [] if game.report is None else summary(game.report)
