@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.file_values import contents
+from tests.worlds import fresh_world
 from weather_ecs import CloudFile, Weather, WeatherFileError, load_clouds, presets, save_clouds
 from weather_ecs.cloud_files import text_of
 from weather_ecs.components import (
@@ -32,7 +33,6 @@ from weather_ecs.components import (
 from weather_ecs.file_content import ONE
 from weather_ecs.file_tables import VERSION, document_of
 from weather_ecs.file_text import DEEPEST, LARGEST, write_text
-from tests.worlds import fresh_world
 
 QUICK = settings(
     deadline=None,
