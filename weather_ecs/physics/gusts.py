@@ -60,12 +60,18 @@ def train(t: float, interval: float, key: int) -> float:
     Over a long time its mean is TRAIN_MEAN.
     """
     t += uniform(key) * interval  # so that two winds' gusts do not keep step
-    number = math.floor(t / interval)
-    length, peak, rise, place = [uniform(key, number, k) for k in range(4)]
+    begins, tc, duration, peak = _gust(key, math.floor(t / interval), interval)
+    return peak * gust_now(t - begins, tc, duration, 1.0, 0.0, 1.0, 1.0)
+
+
+@lru_cache(128)
+def _gust(key: int, number: int, interval: float) -> tuple[float, float, float, float]:
+    """When a gust of a train begins, how long it rises and lasts, all in s, and its peak."""
+    length, peak, rise, place = [chance(key, number, k) for k in range(4)]
     duration = (DURATION[0] + DURATION[1] * length) * interval
     begins = number * interval + place * (interval - duration)
     tc = (RISE[0] + RISE[1] * rise) * duration
-    return (PEAK[0] + PEAK[1] * peak) * gust_now(t - begins, tc, duration, 1.0, 0.0, 1.0, 1.0)
+    return begins, tc, duration, PEAK[0] + PEAK[1] * peak
 
 
 def gust_factor(t: float, gustiness: float, interval: float, key: int) -> float:
@@ -78,8 +84,15 @@ def veer_now(t: float, period: float, key: int) -> float:
     them in a period."""
     half = t / (0.5 * period)
     number = math.floor(half)
-    here, there = (2.0 * uniform(key, number + k, 4) - 1.0 for k in (0, 1))
-    return here + (there - here) * _ease(half - number)
+    here, change = _veers(key, number)
+    return here + change * _ease(half - number)
+
+
+@lru_cache(128)
+def _veers(key: int, number: int) -> tuple[float, float]:
+    """Where the direction is at the beginning of a half period, and how far it goes in it."""
+    here, there = (2.0 * chance(key, number + k, 4) - 1.0 for k in (0, 1))
+    return here, there - here
 
 
 @lru_cache(32)
