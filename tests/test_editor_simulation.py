@@ -238,3 +238,21 @@ def test_the_bands_are_those_of_the_table() -> None:
     assert describe(-5.0, "polar") == "below the ground"
     assert describe(6500.0, "temperate") == "middle or high"
     assert {name for region in REGIONS for name in BANDS[region]} == set(LEVELS)
+
+
+def test_clouds_that_an_edit_takes_from_a_weather_that_stands_are_gone(
+    simulation: Simulation,
+) -> None:
+    content = a_document()
+    simulation.show(content)
+    reach(simulation, 5.0)
+    simulation.update(0.1)
+    assert len(simulation.frame.clouds) > 100
+    simulation.show(replace(content, layers=(), layer_climates=()))
+    assert len(simulation.frame.clouds) == 0
+    simulation.show(content)
+    simulation.running = True
+    simulation.update(0.1, budget=10.0)
+    simulation.show(replace(content, layers=()))
+    simulation.update(0.1, budget=10.0)
+    assert len(simulation.frame.clouds) > 0  # they dissolve

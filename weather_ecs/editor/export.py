@@ -101,8 +101,8 @@ class Shooter:
 
     def close(self) -> None:
         """Give everything back."""
+        self.stage.close()  # which puts back what was bound
         self._ground.release()
-        self.stage.close()
 
 
 def still_of_cloud(

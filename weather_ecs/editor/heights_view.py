@@ -59,6 +59,7 @@ class HeightsView:
         for k, region in enumerate(REGIONS):
             _draw_region(lines, region, left + k * column, column, level, region == studio.region)
         self._take(document, shared, left, level, bottom, top)
+        taken: list[tuple[float, float, float]] = []  # labels: upper and left end, right end
         for k, layer in enumerate(document.content.layers):
             chosen = k == shared.selection.layer
             y = level(layer.base)
@@ -68,7 +69,10 @@ class HeightsView:
             text += f"  {describe(layer.base, studio.region)}"
             size = imgui.calc_text_size(text)
             # Labels of layers that lie close together stand beside each other.
-            x = far.x - 18.0 - size.x - (k % 2) * (size.x + 22.0)
+            x = far.x - 18.0 - size.x
+            while any(abs(y - v) < size.y + 4.0 and x < b and x + size.x > a for v, a, b in taken):
+                x -= 12.0
+            taken.append((y, x - 12.0, x + size.x + 12.0))
             plate = _V(x - 5.0, y - size.y - 3.0), _V(x + size.x + 5.0, y - 1.0)
             lines.add_rect_filled(*plate, theme.packed((0.06, 0.07, 0.09, 0.80)), 4.0)
             lines.add_text(_V(x, y - size.y - 2.0), color, text)

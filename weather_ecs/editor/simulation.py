@@ -80,7 +80,7 @@ class Simulation:
             return
         with in_world(self.world):
             moved = self._stage.change(groups)
-            esper.process(0.0)
+            self._stand()
         if steps_of(self.weather) > 0:
             self.follows = False
         elif moved:
@@ -179,7 +179,7 @@ class Simulation:
                     if clock.perf_counter() >= end:
                         break
             else:
-                esper.process(0.0)
+                self._stand()
 
     def finish(self) -> None:
         """Reach the moment that is being sought, however long it takes."""
@@ -220,7 +220,7 @@ class Simulation:
         with in_world(self.world):
             self.weather.restore(data)
             self._stage.adopt(self._groups, entities_by_uid(self.weather))
-            esper.process(0.0)
+            self._stand()
 
     def _seek_on(self) -> None:
         """A few whole steps towards the target."""
@@ -243,7 +243,15 @@ class Simulation:
         self._pass(passed)
         return passed
 
+    def _stand(self) -> None:
+        """A frame without time. In a weather that is paused, clouds that an edit takes are gone
+        at once; in one that runs they dissolve.
+        """
+        self.weather.paused = not self.running
+        esper.process(0.0)
+
     def _pass(self, seconds: float) -> None:
+        self.weather.paused = False
         esper.process(seconds)
         settle(self.weather)
         step = steps_of(self.weather)

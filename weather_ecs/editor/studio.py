@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 QUALITY = "medium"  # where the document says nothing
 SETTLING = 1.5  # s after a change in which pictures of clouds still come in
-SEEKING = 0.03  # s of a frame, on the way to another moment
+SEEKING = 0.06  # s of a frame, on the way to another moment
 GLIMPSE = 0.5  # s between pictures on that way
 SCALES = (1.0, 0.75, 0.5)  # of the resolution, while the picture moves
 SLOW, QUICK = 0.055, 0.022  # s of a picture from which the next scale is used, or the one before
@@ -99,9 +99,10 @@ class Studio:
         if self._closed:
             return
         self._closed = True
+        # First the weather: it puts back what was bound, which the others may be.
+        self.simulation.close()
         self.scene.release()
         self.target.release()
-        self.simulation.close()
 
 
 def studio_of(shared: Shared) -> Studio:

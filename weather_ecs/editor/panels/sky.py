@@ -125,7 +125,7 @@ def _draw_models(bound: Bound, sky: Sky, document: Document) -> None:
     own = [model.name for model in document.content.models]
     free = [name for name in (*own, *presets.CLOUD_MODELS) if name not in used]
     imgui.set_next_item_width(-1.0)
-    if imgui.begin_combo("##add", "Add a model"):
+    if imgui.begin_combo("##add", "Add a model", imgui.ComboFlags_.height_large):
         for name in dict.fromkeys(free):
             if imgui.selectable(name, False)[0]:
                 bound.set("models", "add model", **added(sky, name))

@@ -104,7 +104,7 @@ def section(title: str, opened: bool) -> bool:
 def choose(label: str, names: Any, tips: dict[str, str]) -> str:
     """A list to pick from; the name that was picked now, or nothing."""
     picked = ""
-    if imgui.begin_combo(label, "choose"):
+    if imgui.begin_combo(label, "choose", imgui.ComboFlags_.height_large):
         for name in names:
             if imgui.selectable(name.replace("_", " "), False)[0]:
                 picked = name

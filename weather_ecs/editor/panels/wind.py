@@ -66,18 +66,20 @@ class WindPanel:
             self._plotted, self._curves = (wind,), curves(wind)
         assert self._curves is not None, "the curves of this wind"
         times, law, gusts = self._curves
-        size = imgui.ImVec2(-1.0, 165.0)
+        size = imgui.ImVec2(-1.0, 160.0)
         flags = implot.Flags_.no_menus | implot.Flags_.no_box_select | implot.Flags_.no_mouse_text
         if not implot.begin_plot("##wind", size, flags):
             return
-        implot.setup_axes("s", "m/s", 0, 0)
+        bare = implot.AxisFlags_.no_label
+        implot.setup_axes("s", "m/s", bare, bare)
+        implot.setup_axis_format(implot.ImAxis_.x1, "%g s")
         always = implot.Cond_.always
         top = max(float(max(law.max(), gusts.max())) * 1.15, 1.0)
         implot.setup_axes_limits(float(times[0]), float(times[-1]), 0.0, top, always)
         below = implot.LegendFlags_.outside | implot.LegendFlags_.horizontal
         implot.setup_legend(implot.Location_.north, below)
-        implot.plot_line("with gusts", times, gusts)
-        implot.plot_line("law", times, law)
+        implot.plot_line("m/s with gusts", times, gusts)
+        implot.plot_line("by the law", times, law)
         if times[0] <= now <= times[-1]:
             implot.plot_inf_lines("now", np.array([now]))
         implot.end_plot()

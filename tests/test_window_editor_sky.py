@@ -1,0 +1,17 @@
+"""The editor's sky workspace in a real window."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from xvfb import ROOT, display
+
+pytestmark = pytest.mark.window
+
+
+@pytest.mark.parametrize("case", ["sky", "weather"])
+def test_sky_workspace(case: str, tmp_path: Path) -> None:
+    with display((1280, 800)) as screen:
+        screen.python(ROOT / "tests" / "window_editor_sky.py", case, tmp_path)

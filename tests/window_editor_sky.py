@@ -1,0 +1,168 @@
+"""The sky workspace of the editor under a real mouse and real keys; exits 0 when all holds.
+
+`window_editor_sky.py CASE FOLDER`
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from imgui_bundle import imgui
+from PIL import Image
+
+from editor_hands import Hands
+from weather_ecs import CloudFile
+from weather_ecs.editor.app import EditorWindow
+from weather_ecs.editor.simulation import Simulation
+from weather_ecs.editor.studio import Studio, studio_of
+
+SIZE = (1000, 640)  # as small as all still fits: fewer pixels to draw
+REPORT = "EHAM 281255Z 27020KT 6000 -SN BKN012 M02/M04"
+
+
+def opened() -> tuple[EditorWindow, Hands]:
+    """An editor without a file, at its sky."""
+    window = EditorWindow(None, SIZE)
+    window.set_location(0, 0)
+    hands = Hands(window)
+    hands.frames(3)
+    hands.click("Sky and weather")
+    hands.until(lambda: hands.shows("New##layer"), "the sky's panels")
+    return window, hands
+
+
+def simulation_of(window: EditorWindow) -> tuple[Studio, Simulation]:
+    studio = studio_of(window.shared)
+    return studio, studio.simulation
+
+
+def case_sky(folder: Path) -> None:
+    """A layer, a sky and a climate from nothing; run, put at a moment, undone and done again."""
+    window, hands = opened()
+    document = window.document
+    empty = document.content
+    studio, simulation = simulation_of(window)
+
+    hands.click("New##layer")
+    assert len(document.content.layers) == 1
+    hands.drag("layer/0/base/##value", (0.5, 0.5), (0.8, 0.5))
+    assert document.content.layers[0].base != 1000.0
+    assert document.steps == ("New layer", "Layer: base")  # a drag is one step
+
+    hands.click("Sky")
+    hands.click("##add")
+    hands.until(lambda: hands.shows("cumulus"), "the list of models")
+    hands.click("cumulus")
+    sky = document.content.layers[0].skies[0]
+    assert sky.models == ("cumulus",) and sky.count == 20, sky
+    hands.click("New##sky")
+    assert [sky.state for sky in document.content.layers[0].skies] == [0.0, 1.0]
+
+    hands.click("Simulation")
+    hands.click("New climate")
+    assert document.content.climate is not None
+    hands.until(lambda: len(simulation.frame.clouds) == 20, "twenty clouds")
+
+    hands.key("space")
+    hands.until(lambda: simulation.time > 0.2, "the weather runs")
+    hands.click("Pause")
+    stood = simulation.time
+    hands.frames(4)
+    assert simulation.time == stood
+    hands.click("strip", (0.1, 0.5))
+    hands.until(lambda: not simulation.seeking, "the moment that was clicked")
+    assert abs(simulation.time - 60.0) < 2.0 and not simulation.running
+    assert abs(simulation.weather.stats.state - 0.1) < 0.01
+    hands.click("- step")
+    hands.until(lambda: not simulation.seeking, "a second before")
+    assert abs(simulation.time - 59.0) < 2.0
+
+    hands.frames(3)
+    picture = np.frombuffer(studio.target.read(), np.uint8)
+    assert picture.std() > 20.0  # sky, clouds and land
+
+    made = document.content
+    steps = len(document.steps)
+    for _ in range(steps):
+        hands.key("ctrl+z")
+    assert document.content is empty and not document.can_undo
+    hands.frames(2)
+    assert len(simulation.frame.clouds) == 0
+    for _ in range(steps):
+        hands.key("ctrl+y")
+    assert document.content is made
+    finish(window)
+
+
+def case_weather(folder: Path) -> None:
+    """Rain by slider and on the map, a report read, a picture written."""
+    window, hands = opened()
+    document = window.document
+    studio, simulation = simulation_of(window)
+
+    hands.click("New##area")
+    hands.drag("area/0/rain_rate/##value", (0.1, 0.5), (0.9, 0.5))
+    assert document.content.rain_areas[0].rain_rate > 20.0
+    assert document.steps[-1] == "Rain area: rain rate" and len(document.steps) == 2
+
+    hands.click("Map")
+    hands.until(lambda: hands.shows("map"), "the map")
+    studio.map.show((-400.0, -400.0), (400.0, 400.0))
+    before = document.content.rain_areas[0].center
+    start = studio.map.pixel(*before)
+    hands.drag_at(start, (start[0] + 60.0, start[1] + 30.0))
+    after = document.content.rain_areas[0].center
+    scale = studio.map.scale
+    assert abs(after[0] - before[0] - 60.0 * scale) < 1.01 * scale
+    assert abs(after[1] - before[1] - 30.0 * scale) < 1.01 * scale
+    assert document.steps[-1] == "Move rain area" and len(document.steps) == 3
+    sample = simulation.weather.sample((after[0], 1.7, after[1]))
+    assert sample.rain_rate == document.content.rain_areas[0].rain_rate
+    turned = studio.map.handles(0, document.content.rain_areas[0])[3].at
+    hands.drag_at(turned, studio.map.pixel(after[0], after[1] - 300.0))
+    assert abs(document.content.rain_areas[0].heading - np.pi / 2) < 0.1
+
+    hands.click("METAR")
+    hands.click("##metar")
+    hands.key("ctrl+a")
+    hands.type("EHAM nonsense")
+    assert not hands.shows("Make this the weather") or document.can_undo
+    steps = len(document.steps)
+    hands.click("Make this the weather")
+    assert len(document.steps) == steps  # a bad report changes nothing
+    hands.click("##metar")
+    hands.key("ctrl+a")
+    hands.type(REPORT)
+    hands.click("Make this the weather")
+    content = document.content
+    assert content.air is not None and content.air.temperature < 0.0
+    assert content.layers and content.winds and len(document.steps) == steps + 1
+    hands.click("Wind")
+    hands.frames(2)
+    assert hands.shows("wind/0/speed/##value")
+
+    hands.key("ctrl+e")
+    hands.until(lambda: hands.shows("##path"), "the window of the export")
+    path = folder / "world.png"
+    hands.click("##path")
+    hands.key("ctrl+a")
+    hands.type(str(path))
+    hands.click("Export")
+    hands.until(path.is_file, "the picture")
+    with Image.open(path) as image:
+        assert image.size == (1280, 720) and np.array(image).std() > 5.0
+    finish(window)
+
+
+def finish(window: EditorWindow) -> None:
+    """No error of OpenGL, and everything given back."""
+    assert window.shared.gl.error == "GL_NO_ERROR"
+    assert isinstance(window.document.content, CloudFile)
+    assert not imgui.is_any_item_active()
+    window.shut()
+
+
+if __name__ == "__main__":
+    globals()[f"case_{sys.argv[1]}"](Path(sys.argv[2]))
