@@ -14,8 +14,8 @@ CLOUD_VIEW = UniformBlock(
     ("cloud_ambient", "vec4"),  # of the plain model
     ("cloud_look", "vec4"),  # lining, bases, ambient; 1 for the plain model
     ("cloud_depth", "vec4"),  # depth = y / (ndc + x)
-    ("cloud_origin", "vec4"),  # pixels, of the viewport; softness
     ("cloud_flash_at", "vec4", CLOUD_LIGHTS),  # m from the camera; 1/m2, of the core
     ("cloud_flash_color", "vec4", CLOUD_LIGHTS),
     ("cloud_flashes", "int"),
+    ("cloud_softness", "float"),
 )

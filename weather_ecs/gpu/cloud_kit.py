@@ -7,6 +7,7 @@ from typing import NamedTuple, Protocol, TypeVar
 
 import moderngl
 
+from weather_ecs.gpu.cloud_canvas import CloudCanvases
 from weather_ecs.gpu.cloud_inside import CloudInside
 from weather_ecs.gpu.cloud_programs import UNITS, CloudPrograms
 from weather_ecs.gpu.cloud_rays import CloudRays
@@ -35,6 +36,7 @@ class CloudKit(NamedTuple):
     quads: RowTexture
     rays: CloudRays
     inside: CloudInside
+    canvases: CloudCanvases
 
     def release(self) -> None:
         """Give everything back."""
@@ -58,6 +60,7 @@ def make_kit(ctx: moderngl.Context, shaders: ShaderLoader) -> CloudKit:
             kept(RowTexture(ctx, 8)),
             kept(CloudRays(ctx, shaders, UNITS)),
             kept(CloudInside(ctx, shaders)),
+            kept(CloudCanvases(ctx, shaders)),
         )
         undo.pop_all()
     return kit

@@ -10,21 +10,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.frame import ViewData
+from weather_ecs.gpu.cloud_groups import Group, find_groups
 from weather_ecs.gpu.cloud_impostors import Impostors, Plan
+from weather_ecs.gpu.cloud_items import INSIDE, items_of, meeting, picture_kinds
 from weather_ecs.gpu.cloud_kit import make_kit
 from weather_ecs.gpu.cloud_order import CloudOrder
 from weather_ecs.gpu.cloud_programs import UNITS, camera_matrix
 from weather_ecs.gpu.cloud_scene import CloudScene, haze_of, rows_of, scene_of, surround_of
-from weather_ecs.gpu.cloud_sequence import BILLBOARDS, FADING, LIT, PICTURE, SOFT, Items
+from weather_ecs.gpu.cloud_seen import SeenClouds
+from weather_ecs.gpu.cloud_sequence import BILLBOARDS, SOFT, Items
 from weather_ecs.gpu.cloud_shadow_pass import CloudShadowPass
 from weather_ecs.gpu.cloud_store import CloudStore
-from weather_ecs.gpu.flash import lit_by_flashes
 from weather_ecs.gpu.shader_loader import ShaderLoader
 from weather_ecs.physics.cloud_light import Surround
 
-SOFT_HEIGHT = 400.0  # m over the ground, below which billboards are soft where they meet the scene
-INSIDE = 0.5  # of a cloud's reach: what is nearer to its middle is behind its picture
-SOFT_REACH = 1500.0  # m, as far as they are
 STILL = 1.0 / 60.0  # s, that a draw counts for at least: a paused sky still takes over its light
 
 
@@ -56,14 +55,18 @@ class CloudPass:
         self._store: CloudStore | None = None  # made with the first clouds
         self._observers: dict[int, Impostors] = {}
         self._orders: dict[int, CloudOrder] = {}
+        self._groups: list[Group] = []
+        self._sight = SeenClouds()
         self.stats = {"clouds_drawn": 0, "impostors_refreshed": 0, "cloud_billboards": 0}
         self.shadows = CloudShadowPass(ctx, shaders, UNITS)
         self.impostors_on = True  # False: billboards alone; for tests and comparisons
+        self.canvases_on = True  # False: near ones straight into the picture; for the same
 
     def _make(self) -> CloudStore:
         """What fails is tried again at the next draw."""
         kit = make_kit(self._ctx, self._shaders)
-        store, self._programs, self._stream, self._rows, self._quads, self._rays, self._inside = kit
+        store, self._programs, self._stream, self._rows, self._quads, self._rays = kit[:6]
+        self._inside, self._canvases = kit.inside, kit.canvases
         self._kit, self._store = kit, store
         return store
 
@@ -103,6 +106,7 @@ class CloudPass:
         self._haze = haze_of(view, light, scene.center)
         self._arrange(view.key, scene, plan, dt)
         taken = np.array([index for index, _ in plan.take], np.intp)
+        self._seen = self._sight.measure(view, scene, store, self._real)
         self._fill(scene, store, taken)
         self._is_inside = self._inside.update(view, scene, store, light)
         self._programs.light(view, light)
@@ -178,82 +182,88 @@ class CloudPass:
         programs.haze(1.0)
         return refreshed
 
-    def meets_scene(self, view: ViewData) -> bool:
-        """Whether the last update has left billboards that may meet the scene."""
-        return bool(self._meet_scene(view).any())
-
-    def _meet_scene(self, view: ViewData) -> NDArray[np.bool_]:
-        """Which of the clouds that are drawn with billboards may, in the order of drawing."""
-        scene, real = self._scene, self._real
-        near = scene.away[real] - scene.reach[real] < SOFT_REACH
-        height = scene.center[real, 1] + scene.base[real] + view.position[1]
-        low = height < view.frame.profile.ground + SOFT_HEIGHT * view.frame.cloud_look.softness
-        meet: NDArray[np.bool_] = near & low
-        return meet
-
-    def draw(
+    def paint(
         self,
         view: ViewData,
-        depth: moderngl.Texture | None,
-        origin: tuple[int, int],
-        between: Between | None = None,
+        depth: Callable[[], moderngl.Texture],
+        viewport: tuple[int, int, int, int],
+        apart: bool,
     ) -> None:
+        """Before `draw`: paint near clouds on canvases. Changes what `update` changes.
+
+        depth: copies the scene's; apart: something stands among the clouds, and they are all drawn
+        into the picture itself.
+        """
+        meets = meeting(view, self._scene, self._real)
+        items, self._groups = self._find_items(view, meets), []
+        self._matrix = camera_matrix(view)
+        self._programs.aim(self._matrix)
+        look = view.frame.cloud_look
+        if self.canvases_on and not (apart or look.plain or look.rays):
+            tiles = self._observers[view.key].kept["tile"][self._drawn, 2]
+            assert self._store is not None
+            self._groups = find_groups(
+                view, self._scene, self._store, self._drawn, items, tiles, self._seen
+            )
+        for group in self._groups:
+            kinds = items.kinds[group.first : group.last]
+            kinds[kinds == BILLBOARDS] = SOFT
+        if self._groups or meets.any():
+            depth().use(UNITS["scene_depth"])
+        if self._groups:
+            self._canvases.paint(self._groups, items, self._programs, viewport[2:])
+        self._programs.meet(*viewport[:2])
+        self._items = items
+
+    def draw(self, view: ViewData, between: Between | None = None) -> None:
         """Draw the visible clouds. Blending, the depth test and no depth writes are the caller's.
 
-        depth: the scene's, where billboards may meet it; origin: the viewport's, pixels; between:
-        something that stands among them.
+        between: something that stands among them.
         """
-        programs, scene = self._programs, self._scene
-        programs.set_origin(*origin)
+        programs, scene, items = self._programs, self._scene, self._items
         self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-        matrix = camera_matrix(view)
-        if depth is not None:
-            depth.use(UNITS["scene_depth"])
-        programs.aim(matrix)
-        items = self._items(view, depth is not None)
         if between is None:
-            programs.draw(items)
+            first = 0
+            for number, group in enumerate(self._groups):
+                programs.draw(items.part(first, group.first))
+                self._canvases.show(number, group)
+                first = group.last
+            programs.draw(items.part(first, len(items.kinds)))
         else:
-            middles = items.begins.copy()
-            bills = self._by_billboards
-            middles[bills] += self._stream.beyond(scene, self._real, between.distance)
-            which = self._drawn[~bills]
-            beyond = scene.away[which] - INSIDE * scene.reach[which] > between.distance
-            middles[~bills] += beyond & (items.ends > items.begins)[~bills]
-            before, after = items.parted(middles)
+            before, after = items.parted(self._middles(between.distance))
             programs.draw(before)
             between.draw()
             self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             programs.draw(after)
         if view.frame.cloud_look.rays:
-            self._rays.draw(scene, self._store, self._real, matrix, self._rows)
+            self._rays.draw(scene, self._store, self._real, self._matrix, self._rows)
         if self._is_inside:
             self._inside.draw(view.projection)
         self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
 
-    def _items(self, view: ViewData, soft: bool) -> Items:
+    def _middles(self, distance: float) -> NDArray[np.intp]:
+        """Where in each item what is farther off than that ends, m."""
+        scene, items, bills = self._scene, self._items, self._by_billboards
+        middles = items.begins.copy()
+        middles[bills] += self._stream.beyond(scene, self._real, distance)
+        which = self._drawn[~bills]
+        beyond = scene.away[which] - INSIDE * scene.reach[which] > distance
+        middles[~bills] += beyond & (items.ends > items.begins)[~bills]
+        return np.minimum(middles, items.ends)
+
+    def _find_items(self, view: ViewData, meets: NDArray[np.bool_]) -> Items:
         """All that is drawn, back to front; writes the rows of the pictures."""
-        scene, impostors, bills = self._scene, self._observers[view.key], self._by_billboards
-        kinds = np.empty(len(self._drawn), np.intp)
-        begins, ends = np.zeros_like(kinds), np.zeros_like(kinds)
-        rows = len(self._real)
-        kinds[bills] = np.where(self._meet_scene(view) & soft, SOFT, BILLBOARDS)
-        begins[bills], ends[bills] = self._begins[:rows], self._begins[1 : rows + 1]
+        scene, impostors = self._scene, self._observers[view.key]
+        bills, begins = self._by_billboards, self._begins[: len(self._real) + 1]
+        stretches = begins[:-1], np.where(self._seen.area > 0.0, begins[1:], begins[:-1])
         pictures = ~bills & (impostors.kept["tile"][self._drawn, 2] > 0)
         which = self._drawn[pictures]
-        count = np.arange(len(which))
-        begins[pictures], ends[pictures] = count, count + 1
-        kinds[~bills] = PICTURE
-        if len(which):
-            quads = impostors.quads(scene, which, self._haze[which])
-            quads[:, 0, 3] *= self._shares[pictures]
-            self._quads.write(quads)
-            self._quads.texture.use(UNITS["cloud_quads"])
-            kinds[pictures] = np.where(quads[:, 1, 3] < 1.0, FADING, PICTURE)
-            if not view.frame.cloud_look.plain:
-                lit = lit_by_flashes(view, scene.center[which], scene.reach[which])
-                kinds[pictures] = np.where(lit | (quads[:, 2, 3] > 0.0), LIT, kinds[pictures])
-        return Items(kinds, begins, ends)
+        quads = impostors.quads(scene, which, self._haze[which])
+        quads[:, 0, 3] *= self._shares[pictures]
+        self._quads.write(quads)
+        self._quads.texture.use(UNITS["cloud_quads"])
+        kinds = picture_kinds(view, scene, which, quads)
+        return items_of(bills, np.where(meets, SOFT, BILLBOARDS), stretches, pictures, kinds)
 
     def _use_textures(self, store: CloudStore, impostors: Impostors) -> None:
         self._programs.images.use(UNITS["cloud_images"])

@@ -97,15 +97,26 @@ class CloudPrograms:
         data["cloud_flash_color"][: len(places)] = colors
         data["cloud_look"] = (look.silver, look.base, look.ambient, float(look.plain))
         data["cloud_depth"][:2] = view.projection[2, 2], view.projection[2, 3]
-        data["cloud_origin"][2] = max(look.softness, 1e-3)
+        data["cloud_softness"] = max(look.softness, 1e-3)
         self._block.upload()
         self._block.bind()
 
-    def set_origin(self, x: int, y: int) -> None:
-        """Lower left corner of the viewport that is drawn to, pixels."""
-        self._block.data["cloud_origin"][:2] = x, y
-        self._block.upload()
-        self._block.bind()
+    def meet(self, x: int, y: int) -> None:
+        """Billboards are drawn into the picture; x, y: the viewport's corner, pixels."""
+        self._programs[SOFT]["cloud_scene_at"] = (1.0, 1.0, -float(x), -float(y))
+        self._programs[SOFT]["cloud_guard"] = (0.0, 0.0, -1.0)
+        self._programs[SOFT]["cloud_guard_at"] = (0.0, 0.0, -3.0)
+
+    def meet_from(
+        self, size: tuple[int, int], canvas: tuple[int, int], depth: tuple[float, float, float]
+    ) -> None:
+        """And now on a canvas, both in pixels; depth: of its guard, as `Group.depth`."""
+        (width, height), (wide, high) = size, canvas
+        self._programs[SOFT]["cloud_scene_at"] = (width / wide, height / high, 0.0, 0.0)
+        x, y, middle = depth
+        at_corner = 0.5 * (middle - x - y) + 0.5
+        self._programs[SOFT]["cloud_guard_at"] = depth
+        self._programs[SOFT]["cloud_guard"] = (x / wide, y / high, at_corner)
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""

@@ -19,6 +19,10 @@ class Items(NamedTuple):
     begins: NDArray[np.intp]
     ends: NDArray[np.intp]
 
+    def part(self, first: int, last: int) -> Items:
+        """The items from `first` to before `last`."""
+        return Items(self.kinds[first:last], self.begins[first:last], self.ends[first:last])
+
     def parted(self, middles: NDArray[np.intp]) -> tuple[Items, Items]:
         """What of each comes before its middle, and what after."""
         return self._replace(ends=middles), self._replace(begins=middles)

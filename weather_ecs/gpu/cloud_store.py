@@ -29,6 +29,7 @@ class StoredShape:
     spread: Spread
     reach: float  # m, of the sphere round the centre that holds every billboard
     detail: float  # 0 to 1: how much of the picture's resolution it needs
+    wide: float  # m, of a billboard in the middle of their order by width
     before: NDArray[np.float32]  # absorptions that it comes from
     fresh: float = 1.0  # share of those it has now
     versions: int = 0  # counts what changes its picture
@@ -98,7 +99,7 @@ class CloudStore:
         self.seeds = ItemTexture(ctx, 2)
         self.shapes: list[StoredShape] = []
         self.half = np.zeros((0, 3))
-        self.base = self.reach = self.thick = self.detail = np.zeros(0)
+        self.base = self.reach = self.thick = self.detail = self.wide = np.zeros(0)
         self._known: dict[int, StoredShape] = {}
         self._tuple: tuple[CloudShapeData, ...] = ()
         self._fading: set[int] = set()
@@ -121,6 +122,7 @@ class CloudStore:
             self.base = np.array([s.base for s in stored])
             self.reach = np.array([s.reach for s in stored])
             self.detail = np.array([s.detail for s in stored])
+            self.wide = np.array([s.wide for s in stored])
             self.thick = np.array([1.0 / max(s.data.penetration, 1e-3) for s in stored])
         if len(self._known) > len(shapes):
             living = {data.key for data in shapes}
@@ -156,6 +158,7 @@ class CloudStore:
             spread,
             float((np.linalg.norm(position, axis=1) + reach.max(1)).max()) if len(b) else 1.0,
             float(np.take(IMAGE_DETAIL, b["image"]).mean()) if len(b) else 1.0,
+            float(np.median(b["size"][:, 0])) if len(b) else 1.0,
             np.asarray(data.absorbed, np.float32),
         )
         self._known[data.key] = shape

@@ -281,13 +281,14 @@ class Renderer:
     def _draw_clouds(
         self, view: ViewData, viewport: tuple[int, int, int, int], bolts: bool
     ) -> None:
-        depth = self._copy_depth() if self._clouds.meets_scene(view) else None
+        self._clouds.paint(view, self._copy_depth, viewport, bolts)
+        self._guard.bind_framebuffer()
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
         among = None
         if bolts:
             among = Between(self._bolts.distance(view), lambda: self._bolts.draw(view))
-        self._clouds.draw(view, depth, viewport[:2], among)
+        self._clouds.draw(view, among)
 
     def _draw_bolts(self, view: ViewData, rain: Rain | None) -> None:
         if rain is None:
@@ -391,6 +392,9 @@ class Renderer:
             held: list[Releasable] = [*self._airs.values(), *self._maps.values()]
             for thing in held + self._made[::-1]:
                 thing.release()
+        # What the host had bound of ours, as by `air().use`, could not be put back: no error of its
+        # own must come of that.
+        _ = self._ctx.error
         self._guard.release()
         self._maps.clear()
         self._airs.clear()

@@ -44,12 +44,13 @@ def shown_size(size: Array, scale: float, present: ArrayLike) -> Array:
     return shown
 
 
-def corners(at: Array, size: Array, turn: Array, mirror: float, heading: float) -> Array:
+def corners(at: Array, size: Array, turn: Array, mirror: ArrayLike, heading: ArrayLike) -> Array:
     """(n, 4, 3) offsets of the corners of billboards at (n, 3) from the camera.
 
     Each stands for an ellipsoid as deep as it is wide: the image lies level for a viewer below and
     turns up towards one at its own height. size (n, 2); turn (n,) rad in the image's plane.
     """
+    mirror, heading = np.asarray(mirror, np.float64), np.asarray(heading, np.float64)
     way = at / np.maximum(np.linalg.norm(at, axis=1, keepdims=True), 1e-3)
     level = np.hypot(way[:, 0], way[:, 2])
     flat = level > 1e-4

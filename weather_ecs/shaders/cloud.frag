@@ -14,16 +14,18 @@ out vec4 color;
 
 #ifdef SOFT
 uniform sampler2D scene_depth;
+uniform vec4 cloud_scene_at;  // the scene's texel: scale and offset of the pixel
+uniform vec3 cloud_guard;  // depth by pixel's x, by y, at 0: what is nearer hides all of the clouds
 
 // 0 to 1: how far the scene is behind, over the depth at which the billboard fades.
 float clearance()
 {
-    ivec2 texel = min(ivec2(gl_FragCoord.xy - cloud_origin.xy), textureSize(scene_depth, 0) - 1);
-    float depth = texelFetch(scene_depth, texel, 0).r;
-    if (depth >= 1.0) return 1.0;
+    ivec2 texel = ivec2(gl_FragCoord.xy * cloud_scene_at.xy + cloud_scene_at.zw);
+    float depth = texelFetch(scene_depth, min(texel, textureSize(scene_depth, 0) - 1), 0).r;
+    if (depth >= 1.0 || depth < dot(vec3(gl_FragCoord.xy, 1.0), cloud_guard)) return 1.0;
     float scene = cloud_depth.y / (depth * 2.0 - 1.0 + cloud_depth.x);
     float own = cloud_depth.y / (gl_FragCoord.z * 2.0 - 1.0 + cloud_depth.x);
-    return clamp((scene - own) / max(vs_fade.z * cloud_origin.z, 1e-3), 0.0, 1.0);
+    return clamp((scene - own) / max(vs_fade.z * cloud_softness, 1e-3), 0.0, 1.0);
 }
 #endif
 

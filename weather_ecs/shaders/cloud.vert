@@ -9,6 +9,32 @@ uniform mat4 cloud_matrix;  // from camera-relative places to the picture
 uniform vec2 cloud_hulls[8 * IMAGES];  // octagons round what the images show
 uniform float cloud_hazed;  // 1; 0 while an impostor is made
 
+#ifdef SOFT
+uniform sampler2D scene_depth;
+uniform vec3 cloud_guard_at;  // depth by x, by y, in the middle of the picture, all -1 to 1
+
+const int LOOKS = 10;
+
+// Whether the scene hides all of a billboard, as far as so many looks along and across it tell;
+// x, y: half of its sides.
+bool hidden(vec3 middle, vec3 x, vec3 y)
+{
+    ivec2 size = textureSize(scene_depth, 0);
+    for (int k = 0; k < LOOKS * LOOKS; ++k) {
+        vec2 at = (vec2(k % LOOKS, k / LOOKS) + 0.5) * (2.0 / float(LOOKS)) - 1.0;
+        vec4 clip = cloud_matrix * vec4(middle + x * at.x + y * at.y, 1.0);
+        if (clip.w <= 0.0) return false;
+        vec2 ndc = clip.xy / clip.w;
+        if (any(greaterThan(abs(ndc), vec2(1.0)))) continue;
+        ivec2 texel = min(ivec2((ndc * 0.5 + 0.5) * vec2(size)), size - 1);
+        float guard = dot(vec3(ndc, 1.0), cloud_guard_at) * 0.5 + 0.5;
+        float depth = texelFetch(scene_depth, texel, 0).r;
+        if (depth >= 1.0 || depth >= guard) return false;
+    }
+    return true;
+}
+#endif
+
 out vec3 vs_uv;
 out vec3 vs_lit;
 out vec3 vs_shade;
@@ -90,5 +116,9 @@ void main()
     gl_Position = cloud_matrix * vec4(p, 1.0);
     // No far plane cuts clouds off.
     gl_Position.z = min(gl_Position.z, 0.999999 * gl_Position.w);
-    if (vs_fade.x < 0.002) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+    bool unseen = vs_fade.x < 0.002;
+#ifdef SOFT
+    unseen = unseen || hidden(at, right * (0.5 * size.x), up * (0.5 * height));
+#endif
+    if (unseen) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }

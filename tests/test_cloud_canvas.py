@@ -1,0 +1,119 @@
+"""Canvases of near clouds: the same picture with fewer pixels, cut by the scene as before."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+
+from tests.cloud_stage import CloudStage, cloud_stage, clouds, shape, sky_frame, view_of
+from tests.conftest import living
+from weather_ecs.gpu.cloud_sequence import BILLBOARDS, PICTURE, Items, runs
+from weather_ecs.gpu.gl import GL
+
+THREE = ((-150.0, 0.0, 0.0), (150.0, 0.0, 40.0), (0.0, 80.0, 0.0))
+RAGGED = 6
+OVERHEAD = {"position": (0.0, 390.0, -300.0)}
+
+
+@pytest.fixture
+def stage(ctx: moderngl.Context) -> Iterator[CloudStage]:
+    with cloud_stage(ctx) as made:
+        yield made
+
+
+def near_frame(**fields: Any) -> Any:
+    """A cloud over the camera whose images are enlarged even in a small picture."""
+    data = shape(centers=THREE, billboards=8, width=1500.0, image=RAGGED)
+    data.billboards["size"][:, 1] *= 0.25
+    return sky_frame(clouds({**OVERHEAD, **fields}), data)
+
+
+def both(stage: CloudStage, frame: Any, **camera: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Pictures with canvases and without; there has to be a canvas."""
+    pictures = []
+    for on in (True, False):
+        stage.passes.canvases_on = on
+        pictures.append(stage.draw(frame, pitch=0.5, **camera))
+        assert bool(stage.passes._groups) is on
+    return pictures[0], pictures[1]
+
+
+def test_a_canvas_shows_what_the_billboards_show(stage: CloudStage) -> None:
+    frame = near_frame()
+    painted, straight = both(stage, frame)
+    covered = stage.cover(straight) > 0.02
+    assert covered.mean() > 0.3
+    difference = np.abs(painted - straight).max(axis=2)
+    assert 0.0 < difference[covered].mean() < 0.012
+    assert np.percentile(difference[covered], 99) < 0.08
+
+
+def test_the_scene_hides_it_and_is_met_softly(stage: CloudStage) -> None:
+    def depth_of(distance: float) -> float:
+        near, far = 0.1, 2000.0
+        ndc = (far + near) / (far - near) - 2.0 * far * near / ((far - near) * distance)
+        return 0.5 * ndc + 0.5
+
+    frame = near_frame()
+    for distance in (20.0, 300.0, 450.0, 700.0, 1500.0):
+        painted, straight = both(stage, frame, depth=depth_of(distance))
+        difference = np.abs(painted - straight).max(axis=2)
+        assert difference.mean() < 0.01 and np.percentile(difference, 99) < 0.10, distance
+    assert not stage.cover(stage.draw(frame, pitch=0.5, depth=depth_of(20.0))).any()
+
+
+def test_half_of_the_picture_behind_a_wall_is_cut_as_sharply(stage: CloudStage) -> None:
+    frame = near_frame()
+
+    def with_wall(on: bool) -> np.ndarray:
+        stage.passes.canvases_on = on
+        stage.draw(frame, pitch=0.5)
+        stage.target.clear(*stage.background, depth=1.0)
+        half = (0, 0, stage.target.width // 2, stage.target.height)
+        stage.target.clear(*stage.background, depth=0.5, viewport=half)
+        stage.renderer.draw(view_of(frame, pitch=0.5), stage.settings)
+        return stage.cover(stage.picture())
+
+    painted, straight = with_wall(True), with_wall(False)
+    middle = painted.shape[1] // 2
+    assert not painted[:, :middle].any()
+    # To the very edge there is as much cloud as without a canvas.
+    assert np.abs(painted[:, middle:] - straight[:, middle:]).mean(axis=0).max() < 0.03
+
+
+def test_what_is_sharp_or_behind_the_camera_needs_no_canvas(stage: CloudStage) -> None:
+    far = sky_frame(clouds({"position": (0.0, 400.0, -3000.0)}), shape(centers=THREE))
+    stage.draw(far, pitch=0.2)
+    assert not stage.passes._groups
+    stage.draw(near_frame(position=(0.0, 390.0, 1900.0)), pitch=0.0)
+    assert not stage.passes._groups
+
+
+def test_a_camera_in_a_cloud_sees_its_billboards(stage: CloudStage) -> None:
+    stage.draw(near_frame(position=(0.0, 2.0, 0.0)), pitch=0.5)
+    assert not stage.passes._groups
+
+
+def test_canvases_are_kept_and_given_back(ctx: moderngl.Context) -> None:
+    gl = GL()
+    before = living(gl)
+    with cloud_stage(ctx) as stage:
+        stage.draw(near_frame(), pitch=0.5)
+        there = living(gl)
+        for x in range(5):
+            stage.draw(near_frame(position=(4.0 * x, 390.0, -300.0)), pitch=0.5)
+        assert living(gl) == there
+    assert living(gl) == before
+
+
+def test_runs_join_neighbours_of_one_kind_that_follow_on_each_other() -> None:
+    kinds = np.array([BILLBOARDS, BILLBOARDS, PICTURE, PICTURE, PICTURE, BILLBOARDS, BILLBOARDS])
+    begins = np.array([0, 4, 0, 9, 1, 9, 15])
+    ends = np.array([4, 9, 1, 9, 2, 12, 20])
+    found = list(runs(Items(kinds, begins, ends)))
+    assert found == [(BILLBOARDS, 0, 9), (PICTURE, 0, 2), (BILLBOARDS, 9, 12), (BILLBOARDS, 15, 20)]
+    assert list(runs(Items(kinds[:0], begins[:0], ends[:0]))) == []
