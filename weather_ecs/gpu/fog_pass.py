@@ -28,6 +28,7 @@ class FogPass:
     """Blends a view's fog over the scene whose depth it is given."""
 
     def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader) -> None:
+        self._ctx = ctx
         self._program = shaders.program(DRAW)
         self._program["scene_depth"] = DEPTH_UNIT
         self._array = ctx.vertex_array(self._program, [])
@@ -56,7 +57,9 @@ class FogPass:
         self._block.upload()
         self._block.bind()
         depth.use(DEPTH_UNIT)
+        self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
         self._array.render(moderngl.TRIANGLES, vertices=3)
+        self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
