@@ -31,7 +31,7 @@ GRID = ProgramKey(vertex="sky.vert", fragment="sky.frag")
 SUN = ProgramKey(vertex="sky_disc.vert", fragment="sky_disc.frag")
 MOON = ProgramKey(vertex="sky_disc.vert", fragment="sky_disc.frag", defines=("MOON",))
 STARS = ProgramKey(vertex="sky_stars.vert", fragment="sky_stars.frag")
-COLUMNS, ROWS = 48, 40  # cells of the grid
+COLUMNS, ROWS = 30, 28  # cells of the grid; each costs as much as 100 pixels
 SUN_RADIUS, MOON_RADIUS = math.radians(0.2666), math.radians(0.259)
 GLARE = 20.0  # radii of the sun
 MAP_UNIT = 0
