@@ -32,8 +32,11 @@ VEIL = UniformBlock(
     ("veil_turn", "vec4", TOGETHER),
     # In these from its centre to the camera; level of f of the full rate; slope of the diameters.
     ("veil_from", "vec4", TOGETHER),
-    # Extinction in 1/m; m to which the drops show it; m up to the ceiling; 1/m, of its soft top.
+    # Extinction in 1/m over the part of f that is the soft edge's; m up to the ceiling (z); 1/m, of
+    # its soft top.
     ("veil_load", "vec4", TOGETHER),
+    # m to which the drops show it, and 1 over that.
+    ("veil_shown", "vec4", TOGETHER),
     # Encoded, its colour; the share of it that is lost where it is thick.
     ("veil_tint", "vec4", TOGETHER),
     # Its rays of rain: strength, place, and drift in shares of the radii for 1 m of fall.
@@ -126,7 +129,10 @@ def fill(data: NDArray, view: ViewData, seen: Sequence[Seen]) -> None:
             (ox * c - oz * s) / a, (ox * s + oz * c) / b, inner, veil.slope
         )  # fmt: skip
         soft = 1.0 / veil.top if veil.top > 0.0 else 1e6
-        data["veil_load"][i] = (veil.extinction, veil.shown, veil.span[1] - y, soft)
+        strength = veil.extinction / (1.0 - inner)
+        data["veil_load"][i] = (strength, 0.0, veil.span[1] - y, soft)
+        shown = max(veil.shown, 1e-4)
+        data["veil_shown"][i] = (shown, 1.0 / shown, 0.0, 0.0)
         data["veil_tint"][i, :3] = encode(color(view.frame, veil) + more)
         data["veil_tint"][i, 3] = DARKER * veil.cloud
         dx, dz = veil.drift

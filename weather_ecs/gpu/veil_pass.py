@@ -92,7 +92,8 @@ class VeilPass:
         data["veil_place"] = nearest(view, each, frame)
         fill(data, view, [each])
         self._block.upload()
-        self._render("veil.frag", ("ALONE", ("COUNT", 1), *look([each])))
+        below = ("BELOW",) if view.position[1] < each.veil.span[1] else ()
+        self._render("veil.frag", ("ALONE", *below, ("COUNT", 1), *look([each])))
 
     def _draw(self, view: ViewData, seen: Sequence[Seen], place: str = "") -> None:
         """Into what is bound. place: what the rays end at, if not each at the scene's own depth."""
@@ -172,7 +173,8 @@ def look(some: Sequence[Seen]) -> tuple[str, ...]:
     curtain = any(each.veil.ragged or each.veil.top for each in some)
     darker = any(each.veil.cloud for each in some)
     changing = some[0].veil.dry != SETTLED
-    names = (curtain, "CURTAIN"), (darker, "DARKER"), (changing, "CHANGING")
+    shown = any(each.veil.shown for each in some)
+    names = (curtain, "CURTAIN"), (darker, "DARKER"), (changing, "CHANGING"), (shown, "SHOWN")
     return tuple([name for there, name in names if there])
 
 

@@ -3,7 +3,7 @@
 // quadratic in t, the rain rate's share is (1 - f) / (1 - f_in), at most 1: its integral is closed.
 // physics/veil.py is the oracle. CHANGING: of rain that begins or ends. EMPTY: before nothing.
 // SCENE: for a texel that stands for several pixels of the scene. ALONE: one area, whose vertices say
-// how it lies. DARKER: thick rain under a cloud is darker.
+// how it lies; BELOW: seen from below its ceiling. DARKER: thick rain under a cloud is darker.
 #include <block:RainView>
 #include <block:Veil>
 #include "fog.glsl"
@@ -17,6 +17,7 @@ noperspective in vec3 vs_ray;
 noperspective in vec2 vs_place;
 #ifdef ALONE
 noperspective in vec4 vs_own;
+noperspective in float vs_rise;
 #endif
 out vec4 color;
 
@@ -65,19 +66,26 @@ float rays_of_rain(float u)
 
 // Of one area: its light times its optical depth (ALONE: its light), and that depth. The index is a constant wherever this is
 // called: a software driver gathers what a variable one asks for, at four times the cost.
-vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_t)
+vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_t, float over_t)
 {
     vec4 from = veil_from[i];
     vec4 load = veil_load[i];
+#ifdef BELOW
+    float t0 = 0.0;
+    float t1 = end * vs_rise > 1.0 ? 1.0 / vs_rise : end;
+#else
     float cut = load.z * over_rise;
     float t0 = rise > 0.0 ? 0.0 : max(cut, 0.0);
     float t1 = rise > 0.0 ? min(end, cut) : end;
+#endif
 
-    // The drops' share falls from 1 at the observer to 0 at the distance load.y, overhead too:
+#ifdef SHOWN
+    // The drops' share falls from 1 at the observer to 0 at the distance veil_shown, overhead too:
     // by the level distance alone, there would be a hole in the veil at the zenith.
-    float shown = max(load.y, 1e-4) / per_t;
-    float x = min(t1 / shown, 1.0);
-    t0 = max(t0, load.y > 0.0 ? shown * x * (1.0 - 0.5 * x) : 0.0);
+    float shown = veil_shown[i].x * over_t;
+    float x = min(t1 * per_t * veil_shown[i].y, 1.0);
+    t0 = max(t0, shown * x * (1.0 - 0.5 * x));
+#endif
 
     // f(t) = lowest + a (t - middle)^2. The ray's distance from the middle comes from the cross
     // product: as a difference it would drown where a thin area is far off.
@@ -87,7 +95,8 @@ vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_
     vec4 lies = on_axes(i, ray);
 #endif
     vec2 own = lies.xy;
-    float over_a = 1.0 / max(dot(own, own), 1e-12);
+    float a = max(dot(own, own), 1e-12);
+    float over_a = 1.0 / a;
     float middle = lies.z * over_a;
     float aside = lies.w;
     float lowest = aside * aside * over_a;
@@ -103,7 +112,7 @@ vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_
 #else
     float path = over_level(outer, x0, x1) - over_level(inner, x0, x1);
 #endif
-    float optical = load.x * path * per_t / (over_a * (1.0 - from.z));
+    float optical = load.x * path * per_t * a;
     float near = max(x0, -half_chord);
     float far = max(min(x1, half_chord), near);
 
@@ -160,19 +169,23 @@ void main()
 #elif defined(SCENE)
     float end = farthest();
 #else
+    ivec2 texel = ivec2(gl_FragCoord.xy - view_origin.xy);
+#ifndef ALONE
     // Where the host has no depth, one texel stands for all.
-    ivec2 texel = min(ivec2(gl_FragCoord.xy - view_origin.xy), textureSize(scene_depth, 0) - 1);
+    texel = min(texel, textureSize(scene_depth, 0) - 1);
+#endif
     float depth = texelFetch(scene_depth, texel, 0).r;
     float end = depth >= 1.0 ? 1e5 : view_depth.y / (depth * 2.0 - 1.0 + view_depth.x);
 #endif
     float rise = abs(ray.y) < 1e-6 ? 1e-6 : ray.y;
     float over_rise = 1.0 / rise;
-    float per_t = sqrt(dot(ray, ray));
-    vec4 seen = seen_of(0, ray, end, rise, over_rise, per_t);
+    float over_t = inversesqrt(dot(ray, ray));
+    float per_t = dot(ray, ray) * over_t;
+    vec4 seen = seen_of(0, ray, end, rise, over_rise, per_t, over_t);
 #if COUNT > 1
-    seen += seen_of(1, ray, end, rise, over_rise, per_t);
-    seen += seen_of(2, ray, end, rise, over_rise, per_t);
-    seen += seen_of(3, ray, end, rise, over_rise, per_t);
+    seen += seen_of(1, ray, end, rise, over_rise, per_t, over_t);
+    seen += seen_of(2, ray, end, rise, over_rise, per_t, over_t);
+    seen += seen_of(3, ray, end, rise, over_rise, per_t, over_t);
 #endif
 #ifdef SCENE
     color = seen * (1e3 / end);  // for a km of depth
