@@ -109,6 +109,8 @@ class FileWeather:
             if lines[-1] and len(lines[-1]) + 1 + len(word) > WIDEST:
                 lines.append("")
             lines[-1] = f"{lines[-1]} {word}".strip()
+        if len(lines) > 3:
+            lines[2] = f"{lines[2]:.{WIDEST - 2}} …"
         return [_cut(line) for line in lines[:3]]
 
     def leave(self) -> None:

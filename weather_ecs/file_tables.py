@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, fields
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from typing import Any, TypeVar
 
 from weather_ecs.components import (
@@ -23,6 +23,7 @@ from weather_ecs.toml_scan import Path
 
 VERSION = 2
 FREE = "x_"  # a key that begins so is anybody's: it is kept, and means nothing here
+EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 CLIMATE = "climate"  # of a layer, which has no such field
 
 C = TypeVar("C", bound=Component)
@@ -111,7 +112,7 @@ def as_text(time: float | str) -> float | str:
     """A moment as ISO 8601 text, where that is exact."""
     if isinstance(time, str):
         return time
-    text = datetime.fromtimestamp(time, UTC).isoformat().replace("+00:00", "Z")
+    text = (EPOCH + timedelta(seconds=time)).isoformat().replace("+00:00", "Z")
     return text if datetime.fromisoformat(text).timestamp() == time else time
 
 

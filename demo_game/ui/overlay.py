@@ -136,7 +136,7 @@ class Overlay:
                     ms=ms,
                     stats=game.weather.stats,
                     wind=(mood.wind_speed, mood.wind_heading),
-                    state=f"{game.state.replace('_', ' ')}, {game.sky.name}",
+                    state=f"{game.state.replace('_', ' ')}, {_hour(game)}",
                     quality=game.settings.quality,
                     backend=game.weather.backend,
                     position=game.pose.eye,
@@ -152,3 +152,11 @@ def _report(game: Game) -> list[str]:
     if game.file is not None:
         return game.file.lines()
     return [] if game.report is None else summary(game.report)
+
+
+def _hour(game: Game) -> str:
+    """The time of day: by its name, or as the file has it."""
+    if game.file is not None and game.file.content.atmosphere is not None:
+        minutes = int(float(game.sky.atmosphere.time) // 60.0) % 1440
+        return f"{minutes // 60:02}:{minutes % 60:02} UTC"
+    return game.sky.name
