@@ -186,6 +186,29 @@ def test_new_tables_come_where_their_like_are_or_last():
     assert got.index('quality = "low"') < got.index("[[models]]")
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "version = 2\n[climate.x_mine]\na = 1 # one\n",
+        "version = 2\n[[layers]]\n[layers.climate.x_mine]\na = 1 # one",
+        "version = 2\nclimate.x_mine.a = 1 # one\n",
+        "'version' = 2\n[\"climate\"] # one\n",
+        "version = 0x2\nclimate = {x_mine = {a = 1}} # one\n[[layers]]\n",
+        "version = 2\n[[layers]]\n[extra] # one\n[[layers.skies]]\nstate = 1\n",
+    ],
+)
+def test_ways_of_writing_that_few_know(text, monkeypatch):
+    content = read_content("f", text)
+    changed = replace(content, climate=Climate(duration=7.0), winds=(Wind(),))
+    if content.layers:
+        changed = changes.with_layer_climate(changed, 0, Climate(duration=8.0))
+    monkeypatch.setattr("weather_ecs.editor.kept_text.text_of", None)  # nothing is written anew
+    got = kept_text("f", text, content, changed)
+    assert repr(document_of(read_content("f", got))) == repr(document_of(changed))
+    assert "# one" in got or "climate.x_mine.a" in text or "{x_mine" in text
+    assert ("x_mine" in got) == ("x_mine" in text)
+
+
 def test_an_older_version_is_written_as_the_present_one(tmp_path, files):
     path = tmp_path / "old.toml"
     path.write_bytes(b"version = 1 # old\r\n[[layers]] # mine\r\nbase = 5 # m\r\n")

@@ -41,11 +41,6 @@ class Node:
     tail: str = ""  # comments right below the last entry
     nodes: list[Node] = field(default_factory=list)
 
-    @property
-    def key(self) -> str:
-        """The name that it has in its table."""
-        return next(part for part in reversed(self.path) if isinstance(part, str))
-
     def entry(self, key: str) -> Entry | None:
         """The entry of this name, not of a part of it."""
         return next((entry for entry in self.entries if entry.keys == (key,)), None)
@@ -75,6 +70,10 @@ class Node:
         else:
             before = f"{toml_text.key_text(key)} = "
             text = toml_text.value_text(value, len(before)).replace("\n", end)
+            if self.path and not self.header:  # so far it was only meant by a table in it
+                names = [part for part in self.path if isinstance(part, str)]
+                self.header = f"{toml_text.header(names)}{end}"
+                self.lead = end
             self.entries.append(Entry((key,), "", before, text, end))
 
 
