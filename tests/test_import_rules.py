@@ -35,7 +35,8 @@ EDITED = ("document", "history", "content", "files", "recent", "clipboard", "com
 # Every other module of the package: clock, snapshot, stats and their like.
 ELSEWHERE: tuple[set[str], set[str]] = ({"numpy", "esper"}, {"*"})  # all but gpu
 USERS = ("demo_game", "benchmarks")
-PUBLIC = {PACKAGE, *(f"{PACKAGE}.{name}" for name in ("components", "presets", "errors", "events"))}
+_FACES = ("components", "presets", "errors", "events", "editor.app")
+PUBLIC = {PACKAGE, *(f"{PACKAGE}.{name}" for name in _FACES)}
 LOADER = "gpu/shader_source.py"  # writes the version line that shader files do not hold
 
 

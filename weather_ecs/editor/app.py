@@ -12,8 +12,10 @@ import pyglet
 from imgui_bundle import imgui
 
 from weather_ecs.editor import panels, theme, view
+from weather_ecs.editor.cloud_view import CloudView
 from weather_ecs.editor.dialogs import Dialogs
 from weather_ecs.editor.document import Document
+from weather_ecs.editor.files import Files
 from weather_ecs.editor.gui import Gui
 from weather_ecs.editor.help_page import draw_help
 from weather_ecs.editor.layout import GAP, Box, boxes, part_of, workspace_of
@@ -40,13 +42,18 @@ _FIXED = (
 class EditorWindow(pyglet.window.Window):
     """The editor in a window."""
 
-    def __init__(self, path: str | os.PathLike[str] | None, size: tuple[int, int]) -> None:
+    def __init__(
+        self,
+        path: str | os.PathLike[str] | None,
+        size: tuple[int, int],
+        files: Files | None = None,
+    ) -> None:
         super().__init__(
             *size, caption=TITLE, resizable=True, vsync=True, visible=False, file_drops=True
         )
         self.set_minimum_size(*SMALLEST)
         self.shared = Shared(moderngl.get_context())
-        self.session = Session(self.shared)
+        self.session = Session(self.shared, files)
         self.dialogs = Dialogs()
         self.gui = Gui(self)
         self.entries: list[tuple[Entry, Panel]] = []
@@ -65,6 +72,11 @@ class EditorWindow(pyglet.window.Window):
     def document(self) -> Document:
         """What is being edited."""
         return self.session.document
+
+    @property
+    def cloud_view(self) -> CloudView:
+        """The view of the cloud."""
+        return next(panel for _, panel in self.entries if isinstance(panel, CloudView))
 
     def play(self) -> None:
         """Run until the window is closed."""

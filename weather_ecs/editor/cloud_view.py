@@ -41,7 +41,7 @@ class CloudView:
         self._marked: tuple[Any, ...] = ()
         self._seen: tuple[Any, ...] = ()
         self._unsettled = SETTLING  # s in which the light of the picture still changes
-        self._sharpness = Sharpness()
+        self.sharpness = Sharpness()
         self._generation = -1
         self._gesture = False
 
@@ -57,12 +57,12 @@ class CloudView:
             self._unsettled = SETTLING
         self._begin_anew(document, shared, rect)
         self._take_picture(model, shared, rect)
-        hovered = view.show("cloud picture", self.target, rect)
+        busy = self._edit_by_gizmo(document, shared, rect) if model is not None else False
+        hovered = view.show("cloud picture", self.target, rect, takes_mouse=not busy)
         if model is None:
             _hint(rect)
-        busy = self._edit_by_gizmo(document, shared, rect) if model is not None else False
-        view.steer(self.camera, rect.height, shared.dt, busy=busy)
-        if hovered and not busy and imgui.is_mouse_double_clicked(0):
+        view.steer(self.camera, rect.height, shared.dt)
+        if hovered and imgui.is_mouse_double_clicked(0):
             shared.frame_wanted = True
 
     def close(self) -> None:
@@ -89,9 +89,9 @@ class CloudView:
         choice = (shared.selection.seed, shared.selection.root)
         seen = (model, shared.number, where, rect.pixels, modes, choice)
         moves = seen != self._seen or self._unsettled > 0.0
-        if not self._sharpness.wants(shared.dt, moves=moves):
+        if not self.sharpness.wants(shared.dt, moves=moves):
             return
-        pixels = self._sharpness.pixels(rect.pixels)
+        pixels = self.sharpness.pixels(rect.pixels)
         self._seen = seen
         self.drawn += 1
         self.stage.step(min(shared.dt, 0.1))

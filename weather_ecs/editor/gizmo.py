@@ -22,8 +22,8 @@ def edit_seed(
 ) -> CloudSeed | None:
     """The seed as the mouse has made it; None while nothing changes.
 
-    kind: "move", or "size", which moves a side and leaves the opposite one where it is. The matrices
-    are for column vectors, in the model's axes. With Ctrl it goes in steps of 10 m.
+    kind: "move", or "size", which moves a side and leaves the opposite one where it is; with Ctrl
+    in steps of 10 m. The matrices are for column vectors, in the model's axes.
     """
     im_guizmo.set_drawlist(imgui.get_window_draw_list())
     im_guizmo.set_rect(*rect)
@@ -59,7 +59,9 @@ def edit_seed(
 
 def busy() -> bool:
     """Whether the gizmo has the mouse, or would have it at a click."""
-    return bool(im_guizmo.is_using_any() or im_guizmo.is_over())
+    if im_guizmo.is_using_any():
+        return True
+    return bool(im_guizmo.is_over() and imgui.is_window_hovered() and not imgui.is_mouse_down(1))
 
 
 def dragging() -> bool:

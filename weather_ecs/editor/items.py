@@ -44,12 +44,16 @@ def choose(name: str, items: Sequence[tuple[str, str]], index: int, rows: float)
 
 def clicked_into() -> bool:
     """Whether the mouse was pressed in the window that is being drawn, or in a part of it."""
-    over = imgui.is_window_hovered(imgui.HoveredFlags_.child_windows)
+    kinds = imgui.HoveredFlags_
+    over = imgui.is_window_hovered(kinds.child_windows | kinds.allow_when_blocked_by_active_item)
     return bool(over and imgui.is_mouse_clicked(0))
 
 
-def buttons(*labels: tuple[str, bool, str]) -> str | None:
-    """Buttons of equal width on a line: label, whether it can be pressed, tip; the one pressed."""
+def buttons(of: str, *labels: tuple[str, bool, str]) -> str | None:
+    """Buttons of equal width on a line: label, whether it can be pressed, tip; the one pressed.
+
+    of: what they are about, which tells their ids from others'.
+    """
     gap = 4.0
     wide = (imgui.get_content_region_avail().x - gap * (len(labels) - 1)) / len(labels)
     pressed = None
@@ -57,7 +61,7 @@ def buttons(*labels: tuple[str, bool, str]) -> str | None:
         if number:
             imgui.same_line(0.0, gap)
         imgui.begin_disabled(not enabled)
-        if imgui.button(label, imgui.ImVec2(wide, 0.0)):
+        if imgui.button(f"{label}##{of}", imgui.ImVec2(wide, 0.0)):
             pressed = label
         imgui.end_disabled()
         if tip:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from weather_ecs.editor.document import Document
-from weather_ecs.editor.files import Files, OnDisk
+from weather_ecs.editor.files import Files
 from weather_ecs.editor.shared import Shared
 from weather_ecs.errors import WeatherError
 
@@ -91,15 +91,12 @@ class Session:
     def look_at_disk(self) -> None:
         """Once a frame: what others have done to the file."""
         unsaved = self.document.dirty
-        news = self.files.on_disk(self.document)
-        if news is OnDisk.GONE:
-            self.shared.say(
-                f"{self.document.name} is no longer there; saving writes it again", bad=True
-            )
-        elif news is OnDisk.CHANGED and unsaved:
-            self.changed_outside = True
-        elif news is OnDisk.CHANGED:
-            self.reload()
+        news = self.files.follow(self.document)
+        if news is None:
+            return
+        self.shared.say(news.text, bad=news.bad)
+        path = self.document.path
+        self.changed_outside = bool(news.bad and unsaved and path is not None and path.is_file())
 
     # How
 

@@ -59,14 +59,17 @@ def space_left() -> Rect:
     return Rect(at.x, at.y, max(room.x, 1.0), max(room.y, 1.0))
 
 
-def show(name: str, target: Target, rect: Rect) -> bool:
+def show(name: str, target: Target, rect: Rect, *, takes_mouse: bool = True) -> bool:
     """The picture as an item that takes the mouse; whether the mouse is over it.
 
     It is copied under all widgets at the end of the frame: windows have no ground of their own.
+    A gizmo over it is to be drawn before, and has the mouse where the picture does not take it.
     """
     _pictures.append((target, rect))
     imgui.set_cursor_screen_pos(imgui.ImVec2(rect.x, rect.y))
-    imgui.set_next_item_allow_overlap()
+    if not takes_mouse:
+        imgui.dummy(imgui.ImVec2(rect.width, rect.height))
+        return False
     imgui.invisible_button(name, imgui.ImVec2(rect.width, rect.height), _ALL)
     return bool(imgui.is_item_hovered())
 
@@ -81,24 +84,20 @@ def copy_pictures(height: int) -> None:
     _pictures.clear()
 
 
-def steer(camera: OrbitCamera, height: float, dt: float, *, busy: bool = False) -> bool:
-    """Move the camera as the mouse over the item just shown says; whether it has moved.
-
-    busy: something in the picture, such as a gizmo, has the left button.
-    """
+def steer(camera: OrbitCamera, height: float, dt: float) -> bool:
+    """Move the camera as the mouse over the item just shown says; whether it has moved."""
     io = imgui.get_io()
     moved = False
     dx, dy = io.mouse_delta.x, io.mouse_delta.y
     active = imgui.is_item_active()
     if active and (dx or dy):
         if imgui.is_mouse_down(_MIDDLE) or (imgui.is_mouse_down(_LEFT) and io.key_shift):
-            if not busy:
-                camera.pan(dx, dy, height)
-                moved = True
+            camera.pan(dx, dy, height)
+            moved = True
         elif imgui.is_mouse_down(_RIGHT):
             camera.look(dx, dy)
             moved = True
-        elif imgui.is_mouse_down(_LEFT) and not busy:
+        elif imgui.is_mouse_down(_LEFT):
             camera.orbit(dx, dy)
             moved = True
     if active and imgui.is_mouse_down(_RIGHT):

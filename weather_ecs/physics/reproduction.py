@@ -60,11 +60,8 @@ def descend(model: Any, rng: np.random.Generator) -> Boxes:
     centers: list[FloatArray] = []
     sides: list[FloatArray] = []
     total = 0
-    for seed in model.seeds:
-        center = floats("center", getattr(seed, "center", (0.0, 0.0, 0.0)))
-        size = floats("size", (seed.width, seed.height, seed.depth), 0.0)
-        if not size.all():
-            raise InvalidValueError("size", size.tolist(), "three numbers above 0, metres")
+    places = _boxes_of(model.seeds)
+    for seed, center, size in zip(model.seeds, *places, strict=True):
         added = [center[None, :]]
         for root in getattr(seed, "roots", ()):
             steps = _steps(root, rng)
@@ -79,6 +76,23 @@ def descend(model: Any, rng: np.random.Generator) -> Boxes:
         raise InvalidValueError("seeds", model.seeds, "at least one seed")
     seeds = np.repeat(np.arange(len(centers)), [len(each) for each in centers])
     return Boxes(np.concatenate(centers), np.array(sides)[seeds], seeds)
+
+
+def _boxes_of(seeds: Sequence[Any]) -> tuple[FloatArray, FloatArray]:
+    """Centres and whole sides of seeds, (n, 3) both, checked together."""
+    places = [getattr(seed, "center", (0.0, 0.0, 0.0)) for seed in seeds]
+    sides = [(seed.width, seed.height, seed.depth) for seed in seeds]
+    try:
+        checked = floats("center", places), floats("size", sides, 0.0)
+    except InvalidValueError:
+        for center, size in zip(places, sides, strict=True):  # the one that it is
+            floats("center", center), floats("size", size, 0.0)
+        raise
+    flat = (checked[1] == 0.0).any(axis=-1)
+    if flat.any():
+        size = checked[1][flat][0].tolist()
+        raise InvalidValueError("size", size, "three numbers above 0, metres")
+    return checked
 
 
 def level_counts(start: int, end: int, levels: int) -> NDArray[np.int64]:

@@ -89,6 +89,7 @@ class CloudPanel:
             shared.choose_model(chosen)
         some = bool(content.models)
         pressed = items.buttons(
+            "model",
             ("New...", True, "A model of one seed, or a copy of one of the package's"),
             ("Copy", some, "Another model like this one"),
             ("Delete", some, "Take it out of the file, and out of the skies that use it"),

@@ -40,6 +40,7 @@ class RootPanel:
             shared.focus = "root"
         some = bool(seed.roots)
         pressed = items.buttons(
+            "root",
             ("New", len(seed.roots) < 256, "A root that grows upwards"),
             ("Copy", some, "One like the chosen root"),
             ("Delete", some, "Take the chosen root away"),

@@ -68,6 +68,7 @@ class SeedPanel:
     def _change(self, document: Document, shared: Shared, model: CloudModel) -> None:
         where = shared.selection
         pressed = items.buttons(
+            "seed",
             ("New", True, "A seed beside the chosen one"),
             ("Copy", True, "One like the chosen seed, with its roots"),
             ("Delete", len(model.seeds) > 1, "Take it away; a model has one seed at least"),
