@@ -42,7 +42,7 @@ from weather_ecs.presets import PRESETS, SKIES
 
 WIND_HEADING = math.radians(-22.5)  # to the east, a little south
 METAR = "metar"  # in place of a preset's name until the report is read
-GLOOM = 1.2  # times what a rain cloud takes, under a whole sky of it
+GLOOM = 0.8  # times what a rain cloud takes, under a whole sky of it
 FLASH_TIME = 2.5  # s of weather after a strike in which its flash may go on
 STRIKE_AHEAD, SPREAD = 900.0, 0.3  # m and rad, of a strike that the player calls
 MARK, MARKS = 2.0, 60  # s, and how many of them are kept

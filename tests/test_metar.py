@@ -19,6 +19,7 @@ from weather_ecs.errors import InvalidValueError, MetarError, MissingExtraError
 from weather_ecs.metar import read_metar
 from weather_ecs.metar_falls import RATES
 from weather_ecs.metar_weather import FAR, humidity
+from weather_ecs.physics.haze import haze_visibility
 
 FILE = Path(__file__).parent / "data" / "metars.txt"
 REAL = [line for line in FILE.read_text().splitlines() if line and line[0] != "#"]
@@ -290,6 +291,14 @@ def test_it_takes_the_time_it_is_given_and_says_what_it_did():
         assert weather.whole.progress == 1.0 and weather.whole.name == "LBBG 04 16:00 UTC"
         fog = esper.component_for_entity(weather.whole.entities["fog"], Fog)
         assert fog.visibility == pytest.approx(report.weather.visibility)
+
+
+@pytest.mark.parametrize(
+    "seen", ["9999", "8000", "4000 HZ", "9999 HZ", "3000 BR", "0300 FG", "1200"]
+)
+def test_haze_never_hides_what_the_report_lets_one_see(seen):
+    report = read_metar(f"EHAM 020825Z 21008KT {seen} SCT030 17/10 Q1002")
+    assert haze_visibility(report.weather.haze) >= 0.999 * report.weather.visibility
 
 
 BAD = [

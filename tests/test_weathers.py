@@ -393,3 +393,22 @@ def test_any_sequence_of_changes_keeps_everything_finite(changes):
             here = weather.sample((10.0, 0.0, 10.0))
             assert all(math.isfinite(v) for v in here[:2]) and here.visibility > 0.0
             weather.snapshot()
+
+
+def test_rain_of_a_closed_sky_has_no_edge_within_a_days_walk() -> None:
+    """It falls as far as the sheet of cloud reaches, and as hard in most of that."""
+    for name in ("steady_rain", "overcast_drizzle", "snow", "blizzard"):
+        whole = WEATHERS[name]
+        widest = max(bank.bank().side for bank in whole.banks)
+        assert whole.rain_radius >= 0.45 * widest
+        esper.switch_world(f"wide {name}")
+        weather = Weather()
+        weather.change_to(name)
+        esper.process(0.05)
+        here = weather.sample((0.0, 2.0, 0.0))
+        there = weather.sample((-9000.0, 2.0, 9000.0))
+        assert here.rain_rate + here.snow_rate == pytest.approx(whole.rain_rate)
+        assert there.rain_rate + there.snow_rate == pytest.approx(whole.rain_rate)
+        weather.close()
+        esper.switch_world("default")
+        esper.delete_world(f"wide {name}")

@@ -8,9 +8,10 @@ from typing import Any
 
 from weather_ecs.metar_falls import Falls
 from weather_ecs.metar_sky import OKTAS, CloudGroup, bank_of
+from weather_ecs.physics.haze import haze_visibility
 from weather_ecs.physics.optics import CONTRAST, falling_extinction
 from weather_ecs.physics.phase import share_at
-from weather_ecs.weathers import MOST_BANKS, WholeWeather
+from weather_ecs.weathers import MOST_BANKS, WIDESPREAD, WholeWeather
 
 FAR = 30_000.0  # m of visibility where a report says ten kilometres or more
 BLOWING = 8.0  # m/s at 10 m above which dry snow is blown (Li and Pomeroy 1997)
@@ -75,17 +76,25 @@ def weather_of(name: str, observed: Observed) -> tuple[WholeWeather, list[tuple[
         name,
         min(state, 1.0),
         rain_rate=rate,
-        rain_radius=4000.0 if falls.showers else 8000.0,
+        rain_radius=4000.0 if falls.showers else WIDESPREAD,
         temperature=adjusted,
         humidity=damp,
         visibility=CONTRAST / lost,
         lightning=falls.thunder,
         overcast=overcast,
-        haze=0.7 if falls.haze else min(max(1.0 - math.log10(sight / 500.0) / 2.0, 0.1), 0.9),
+        haze=_haze(CONTRAST / lost, falls.haze),
         banks=banks,
         **{"wind_speed": 0.0, **observed.fields},
     )
     return whole, changed
+
+
+def _haze(visibility: float, reported: bool) -> float:
+    """Haze of air in which one sees so far (m): thick where it is reported, never thicker than
+    that lets one see.
+    """
+    haze = min(max(1.0 - math.log10(visibility / 500.0) / 2.0, 0.1), 0.9)
+    return 0.7 if reported and haze_visibility(0.7) >= visibility else haze
 
 
 def humidity(temperature: float, dew_point: float) -> float:

@@ -20,6 +20,7 @@ MOST_BANKS = 8
 SIDES = ((2000.0, 20_000.0), (6000.0, 26_000.0), (math.inf, 40_000.0))
 # An anvil is 10 km wide, and a sheet has to reach over the horizon.
 WIDE, WIDE_SIDE = 20.0, 36_000.0  # km2, m
+WIDESPREAD = 0.5 * WIDE_SIDE  # m of rain round its middle: as far as the sheet that it falls from
 
 _oktas = number(0.0, 8.0)
 _base = number(0.0, 20_000.0)
@@ -68,7 +69,7 @@ class WholeWeather:
     name: str
     state: float  # 0 clear to 1 storm, of the skies
     rain_rate: float = 0.0  # mm/h of water, as rain or snow by the air
-    rain_radius: float = 8000.0  # m, of the area it falls in
+    rain_radius: float = WIDESPREAD  # m, of the area it falls in
     wind_speed: float = 2.0  # m/s, mean at 10 m
     wind_from: float | None = None  # degrees clockwise from north, -z; None: as it blows already
     gustiness: float = 0.2  # 0 to 1: how far the strongest gusts exceed the mean
