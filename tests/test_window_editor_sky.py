@@ -11,7 +11,6 @@ from xvfb import ROOT, display
 pytestmark = pytest.mark.window
 
 
-@pytest.mark.parametrize("case", ["sky", "weather"])
-def test_sky_workspace(case: str, tmp_path: Path) -> None:
+def test_sky_workspace(tmp_path: Path) -> None:
     with display((1280, 800)) as screen:
-        screen.python(ROOT / "tests" / "window_editor_sky.py", case, tmp_path)
+        screen.python(ROOT / "tests" / "window_editor_sky.py", tmp_path)
