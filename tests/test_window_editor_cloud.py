@@ -25,7 +25,7 @@ def test_cloud_workspace(case: str, tmp_path: Path) -> None:
             )
             assert list((tmp_path / "walk").glob("*.png"))
             lines = (tmp_path / "walk.jsonl").read_text().splitlines()
-            assert json.loads(lines[-1])["clouds"] > 5
+            assert json.loads(lines[-1])["clouds_drawn"] > 0
 
 
 def test_benchmark_shows_a_change_in_the_next_frame(tmp_path: Path) -> None:

@@ -276,6 +276,24 @@ def case_trouble(folder: Path) -> None:
     hands.click("Don't save")
     assert not document.content.models and not document.dirty
 
+    # A panel that fails inside says so in its place; the others go on.
+    panel = next(panel for _, panel in window.entries if panel.title == "Seeds")
+    sound = type(panel).draw
+
+    def fails(*_: object) -> None:
+        imgui.begin_child("half drawn")
+        imgui.push_id("and left")
+        raise RuntimeError("broken on purpose")
+
+    type(panel).draw = fails
+    hands.frames(3)
+    type(panel).draw = sound
+    assert hands.shows("New...##model") and not hands.shows("New##seed")
+    hands._ids.clear()
+    hands.click("Try again##Seeds")
+    hands.frames(2)
+    assert not hands.shows("Try again##Seeds")
+
     # A window of next to nothing, and a hidden one.
     window.set_minimum_size(1, 1)
     for size in ((1, 1), (40, 3), (3, 400), (1280, 720)):

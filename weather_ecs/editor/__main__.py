@@ -32,7 +32,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         pyglet.options.debug_gl = False  # an error of OpenGL shows in a picture, and ends nothing
         from weather_ecs.editor.app import run
     except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] not in ("imgui_bundle", "OpenGL", "tomlkit"):
+        if (error.name or "").partition(".")[0] not in (
+            "imgui_bundle",
+            "OpenGL",
+            "PIL",
+            "imageio_ffmpeg",
+        ):
             raise
         missing = MissingExtraError("editor", str(error.name))
         print(f"error: {missing}", file=sys.stderr)  # noqa: T201 - the program's own line

@@ -21,6 +21,7 @@ from weather_ecs.editor.help_page import draw_help
 from weather_ecs.editor.layout import GAP, Box, boxes, part_of, workspace_of
 from weather_ecs.editor.menu_table import WORKSPACES, commands_of, menus_of
 from weather_ecs.editor.menus import draw_bar, press_keys
+from weather_ecs.editor.panel_guard import draw_panel
 from weather_ecs.editor.panels import Entry
 from weather_ecs.editor.session import Session
 from weather_ecs.editor.shared import Panel, Shared
@@ -184,7 +185,7 @@ class EditorWindow(pyglet.window.Window):
             with _Window(f"{entry.place.value} {panel.title}", part) as window:
                 if window:
                     imgui.separator_text(panel.title)
-                    panel.draw(self.document, self.shared)
+                    draw_panel(panel, self.document, self.shared)
             y += high
 
     def _draw_tabs(self, box: Box, name: str, mine: list[Panel]) -> None:
@@ -192,11 +193,11 @@ class EditorWindow(pyglet.window.Window):
             if not window:
                 return
             if len(mine) == 1:
-                mine[0].draw(self.document, self.shared)
+                draw_panel(mine[0], self.document, self.shared)
             elif imgui.begin_tab_bar("panels"):
                 for panel in mine:
                     if imgui.begin_tab_item(panel.title)[0]:
-                        panel.draw(self.document, self.shared)
+                        draw_panel(panel, self.document, self.shared)
                         imgui.end_tab_item()
                 imgui.end_tab_bar()
 

@@ -55,6 +55,9 @@ class Gui:
         io = imgui.get_io()
         io.set_ini_filename("")  # the layout is fixed: nothing to keep
         io.config_windows_move_from_title_bar_only = True
+        io.config_error_recovery_enable_assert = False
+        io.config_error_recovery_enable_tooltip = False
+        io.config_debug_highlight_id_conflicts = False
         io.config_drag_click_to_input_text = True
         theme.apply()
         with state_kept():

@@ -42,6 +42,12 @@ def choose(name: str, items: Sequence[tuple[str, str]], index: int, rows: float)
     return index
 
 
+def lines_for(rows: float, least: float) -> float:
+    """Lines of a list that leave room for so many rows of widgets below it."""
+    room = imgui.get_content_region_avail().y - rows * imgui.get_frame_height_with_spacing() - 8.0
+    return max(min(float(room // imgui.get_text_line_height_with_spacing()), 14.0), least)
+
+
 def clicked_into() -> bool:
     """Whether the mouse was pressed in the window that is being drawn, or in a part of it."""
     kinds = imgui.HoveredFlags_

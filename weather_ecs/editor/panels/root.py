@@ -35,7 +35,7 @@ class RootPanel:
             (f"Root {number}", f"up to {root.descendants()} seeds")
             for number, root in enumerate(seed.roots, 1)
         ]
-        where.root = items.choose("roots", listed, where.root, 3.0)
+        where.root = items.choose("roots", listed, where.root, items.lines_for(8.6, 3.0))
         if items.clicked_into():
             shared.focus = "root"
         some = bool(seed.roots)

@@ -36,7 +36,7 @@ class SeedPanel:
             (f"Seed {number}", f"{len(seed.roots)} roots" if len(seed.roots) != 1 else "1 root")
             for number, seed in enumerate(model.seeds, 1)
         ]
-        chosen = items.choose("seeds", listed, where.seed, 5.0)
+        chosen = items.choose("seeds", listed, where.seed, items.lines_for(9.0, 5.0))
         if chosen != where.seed:
             where.seed, where.root = chosen, 0
         if items.clicked_into():
