@@ -106,6 +106,11 @@ def make_weather(window: EditorWindow, hands: Hands, folder: Path) -> None:
     hands.drag("area/0/rain_rate/##value", (0.1, 0.5), (0.9, 0.5))
     assert document.content.rain_areas[0].rain_rate > 20.0
     assert document.steps[-1] == "Rain area: rain rate" and len(document.steps) == 2
+    hands.key("ctrl+c", "ctrl+v", "Delete")
+    areas = document.content.rain_areas
+    assert len(areas) == 1 and len(document.steps) == 4
+    hands.key("ctrl+z", "ctrl+z")
+    assert len(document.steps) == 2
 
     hands.click("Map")
     hands.until(lambda: hands.shows("map"), "the map")

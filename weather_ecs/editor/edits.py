@@ -14,11 +14,15 @@ from weather_ecs.editor.panels.seed import add_seed, beside
 from weather_ecs.editor.shared import Shared
 from weather_ecs.errors import WeatherFileError
 
+OF_CLOUD = ("model", "seed", "root", "cloud")
+OF_SKY = ("layer", "sky", "area", "wind", "cloud")
+
 
 def focused(document: Document, shared: Shared) -> Any:
     """The component that copy would copy; None where nothing is chosen."""
-    if shared.focus not in pasting.WHAT:
-        return None
+    seen = OF_SKY if shared.workspace == "sky" else OF_CLOUD
+    if shared.focus not in pasting.WHAT or shared.focus not in seen:
+        return None  # what is not to be seen is not to be taken away
     return pasting.chosen(document.content, shared.focus, shared.selection)
 
 

@@ -75,7 +75,7 @@ class MapView:
         if imgui.is_item_activated() and imgui.is_mouse_clicked(_LEFT):
             self._held = frame.grasp(areas, shared.selection.area, x, y)
             if self._held is not None:
-                shared.selection.area = self._held.area
+                shared.selection.area, shared.focus = self._held.area, "area"
                 center, (px, pz) = areas[self._held.area].center, frame.world(x, y)
                 self._grip = (px - center[0], pz - center[1])
         if imgui.is_item_active() and (io.mouse_delta.x or io.mouse_delta.y):

@@ -41,19 +41,28 @@ def commands_of(window: EditorWindow) -> Commands:
     bind("save_as", session.save_as)
     bind("quit", session.quit)
     _bind_edits(window, bind)
-    bind("generate", partial(another_number, shared))
-    bind("next", partial(_next, shared, 1))
-    bind("before", partial(_next, shared, -1), enabled=lambda: shared.number > 0)
-    for field in _MODES:
-        bind(field, partial(_flip, shared, field))
-    bind("move", partial(_gizmo, shared, "move"))
-    bind("size", partial(_gizmo, shared, "size"))
-    bind("frame", partial(setattr, shared, "frame_wanted", True))
+    _bind_cloud(shared, bind)
     bind("cloud_view", partial(setattr, shared, "workspace", "cloud"))
     bind("sky_view", partial(setattr, shared, "workspace", "sky"))
     bind("whole_screen", window.toggle_fullscreen)
     bind("help", window.toggle_help)
     return commands
+
+
+def _bind_cloud(shared: Shared, bind: Callable[..., None]) -> None:
+    """What only means something where a cloud is seen: over the world the same keys walk."""
+
+    def here() -> bool:
+        return shared.workspace == "cloud"
+
+    bind("generate", partial(another_number, shared), enabled=here)
+    bind("next", partial(_next, shared, 1), enabled=here)
+    bind("before", partial(_next, shared, -1), enabled=lambda: here() and shared.number > 0)
+    for field in _MODES:
+        bind(field, partial(_flip, shared, field), enabled=here)
+    bind("move", partial(_gizmo, shared, "move"), enabled=here)
+    bind("size", partial(_gizmo, shared, "size"), enabled=here)
+    bind("frame", partial(setattr, shared, "frame_wanted", True), enabled=here)
 
 
 def _bind_edits(window: EditorWindow, bind: Callable[..., None]) -> None:

@@ -46,6 +46,7 @@ class SimulationPanel:
             label = f"{layer.base:,.0f} m".replace(",", " ")
             if imgui.selectable(f"{label}##layer{k}", k == chosen)[0]:
                 shared.selection.layer, shared.selection.sky = k, 0
+                shared.focus = "layer"
             imgui.pop_style_color()
             imgui.same_line(imgui.get_window_width() * 0.34)
             count = len(layer.skies)
@@ -59,6 +60,7 @@ class SimulationPanel:
             layer = SkyLayer(1000.0, skies=(Sky(0.0),))
             if document.apply("New layer", with_new(document.content, "layers", layer)):
                 shared.selection.layer, shared.selection.sky = len(layers), 0
+                shared.focus = "layer"
         elif pressed == "Copy":
             copy = with_new(document.content, "layers", replace(layers[chosen]), chosen + 1)
             if document.apply("Copy layer", copy):

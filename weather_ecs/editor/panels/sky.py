@@ -45,6 +45,7 @@ class SkyPanel:
         for k, sky in sorted(enumerate(layer.skies), key=lambda each: each[1].state):
             if imgui.selectable(f"{sky.state:.2f} {name_of(sky.state)}##sky{k}", k == chosen)[0]:
                 shared.selection.sky = chosen = k
+                shared.focus = "sky"
             imgui.same_line(imgui.get_window_width() * 0.44)
             imgui.text_disabled(f"{sky.count} clouds")
             if parts[k] > 0.0:

@@ -153,7 +153,7 @@ def _draw_areas(document: Document, shared: Shared) -> None:
         a, b = area.radii
         text = f"{area.rain_rate:g} mm/h"
         if imgui.selectable(f"{text}##area{k}", k == chosen)[0]:
-            shared.selection.area = k
+            shared.selection.area, shared.focus = k, "area"
         imgui.same_line(imgui.get_window_width() * 0.36)
         imgui.text_disabled(f"{a:,.0f} x {b:,.0f} m".replace(",", " "))
     pressed = buttons("area", bool(areas))
@@ -161,7 +161,7 @@ def _draw_areas(document: Document, shared: Shared) -> None:
         camera = studio_of(shared).camera
         area = RainArea((round(camera.x), round(camera.z - 150.0)), (120.0, 80.0), 10.0)
         if document.apply("New rain area", with_new(document.content, "rain_areas", area)):
-            shared.selection.area = len(areas)
+            shared.selection.area, shared.focus = len(areas), "area"
     elif pressed == "Copy":
         x, z = areas[chosen].center
         copy = replace(areas[chosen], center=(x + 2.0 * areas[chosen].radii[0], z))

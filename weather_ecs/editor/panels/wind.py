@@ -39,7 +39,7 @@ class WindPanel:
         winds, chosen = document.content.winds, shared.selection.wind
         for k, wind in enumerate(winds):
             if imgui.selectable(f"{wind.speed:g} m/s##wind{k}", k == chosen)[0]:
-                shared.selection.wind = k
+                shared.selection.wind, shared.focus = k, "wind"
             imgui.same_line(imgui.get_window_width() * 0.34)
             imgui.text_disabled(f"{wind.law}, from {bearing_of(wind.direction):.0f}°")
         pressed = buttons("wind", bool(winds))
