@@ -152,12 +152,16 @@ def _row(thing: Thing, label: str, fields: tuple[str, ...], share: float = LABEL
     show_problem(thing.document, (*thing.key, *fields))
 
 
-def section(title: str) -> bool:
-    """A heading that opens and closes what is below it; whether it is open."""
+def section(title: str, *, opened: bool = True) -> bool:
+    """A heading that opens and closes what is below it; whether it is open.
+
+    opened: whether it is so at first.
+    """
+    flags = imgui.TreeNodeFlags_.default_open if opened else 0
     imgui.push_style_color(imgui.Col_.header, theme.vec4(theme.RAISED))
-    opened = imgui.collapsing_header(title, imgui.TreeNodeFlags_.default_open)
+    is_open = imgui.collapsing_header(title, flags)
     imgui.pop_style_color()
-    return bool(opened)
+    return bool(is_open)
 
 
 def show_problem(document: Document, merge: tuple[Any, ...]) -> None:
