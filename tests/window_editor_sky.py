@@ -129,6 +129,12 @@ def make_weather(window: EditorWindow, hands: Hands, folder: Path) -> None:
     hands.drag_at(turned, studio.map.pixel(after[0], after[1] - 300.0))
     assert abs(document.content.rain_areas[0].heading - np.pi / 2) < 0.1
 
+    hands.click("Clouds")
+    hands.click("New##cloud")
+    hands.until(lambda: len(simulation.frame.clouds) == 1, "a single cloud")
+    hands.drag("cloud/0/scale/##value", (0.2, 0.5), (0.7, 0.5))
+    assert document.content.clouds[0].scale != 1.0 and document.steps[-1] == "Cloud: scale"
+
     hands.click("METAR")
     hands.click("##metar")
     hands.key("ctrl+a")

@@ -73,7 +73,7 @@ def _draw_bar(studio: Studio) -> None:
         else:
             camera.land()
     imgui.same_line(0.0, 4.0)
-    if imgui.button("Start"):
+    if imgui.button("Home"):
         camera.go(0.0, 55.0)
         camera.land()
         camera.yaw, camera.pitch = 0.0, math.radians(12.0)

@@ -40,6 +40,7 @@ PANELS: list[Entry] = [
     Entry(Place.CLOUD_BELOW, "gallery", "Gallery"),
     Entry(Place.SKY_LEFT, "panels.simulation", "SimulationPanel"),
     Entry(Place.SKY_LEFT, "panels.sky", "SkyPanel"),
+    Entry(Place.SKY_LEFT, "panels.clouds", "CloudsPanel"),
     Entry(Place.SKY_VIEW, "world_view", "WorldView"),
     Entry(Place.SKY_VIEW, "map_view", "MapView"),
     Entry(Place.SKY_VIEW, "heights_view", "HeightsView"),

@@ -103,10 +103,11 @@ def _draw_models(bound: Bound, sky: Sky, document: Document) -> None:
     for k, model in enumerate(sky.models):
         name = model.name if isinstance(model, CloudModel) else model
         imgui.push_id(f"model {k}")
-        if imgui.small_button("x"):
+        if imgui.button("x"):
             bound.set("models", "remove model", **removed(sky, k))
         tip_of_last("Take the model out of this sky")
         imgui.same_line(0.0, 6.0)
+        imgui.align_text_to_frame_padding()
         imgui.text(name if len(name) < 20 else name[:18] + "…")
         imgui.same_line(imgui.get_window_width() * 0.56)
         imgui.set_next_item_width(-46.0)
