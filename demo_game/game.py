@@ -55,6 +55,7 @@ SHEET_SHARE = 0.55  # more where the cloud is one sheet
 SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
 COMPARED_TOURS = ("walk", "run", "crossing")
 LIGHT = ("low", "medium", "auto")  # qualities at which a measured tour has but some cumulus
+SNOW_ASKED = 0.25  # s between two looks whether there may be any
 SNOW_BELOW = 4.0  # degrees Celsius at which there may be some
 SKY_HEIGHT = 60.0  # m, above whatever shelters
 START = (0.0, 70.0)  # (x, z), m, where a player begins, looking north
@@ -119,6 +120,7 @@ class Game:
         esper.create_entity(self.sky.atmosphere)
         self._scape = Cloudscape(self._scenery().state, self._entities.areas(), self._layers())
         self._struck, self._strikes = -math.inf, 0
+        self._snow = False, -math.inf  # whether there may be any, and when that was asked
         esper.set_handler("strike", self._on_strike)
         self._observer = Observer(self.pose.eye)
         if not self._is_compared:
@@ -491,7 +493,7 @@ class Game:
             cloud_shadow=self.weather.cloud_shadow() if self._has_shadows else None,
             air=self._flash_air(),
             snow=self._snows,
-            actor_snow=self._entities.snow_on_actors(self.weather),
+            actor_snow=self._entities.snow_on_actors(self.weather) if self._snows else (0.0, 0.0),
             lamps=light.lamps,
             sky=self.weather.sky(),
             draws_sky=not self.sky.atmosphere.draw,
@@ -536,7 +538,11 @@ class Game:
 
     @property
     def _snows(self) -> bool:
-        """Whether snow may fall or lie."""
-        x, z = self._entities.area.center
-        there = self.weather.sample((x, SKY_HEIGHT, z))
-        return there.temperature < SNOW_BELOW or there.snow_depth > 0.0
+        """Whether snow may fall or lie; looked at now and then."""
+        known, asked = self._snow
+        if not 0.0 <= self.time - asked < SNOW_ASKED:
+            x, z = self._entities.area.center
+            there = self.weather.sample((x, SKY_HEIGHT, z))
+            known = there.temperature < SNOW_BELOW or there.snow_depth > 0.0
+            self._snow = known, self.time
+        return known
