@@ -23,6 +23,9 @@ def play_key(name: str, game: Game, shown: Shown) -> str | None:
         return game.blow(1 if name == "BRACKETRIGHT" else -1)
     if name in ("COMMA", "PERIOD"):
         return game.turn_wind(1 if name == "COMMA" else -1)
+    if name == "F":
+        game.player.switch_flight()
+        return "You fly: Space is up, Shift is fast" if game.player.flying else "You walk"
     if name == "L":
         return game.strike()
     if name == "V":

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from demo_game.camera import Pose
 from demo_game.collision import Colliders
+from demo_game.flight import kept_in, velocity_of
 
 EYE_HEIGHT = 1.66  # m above the feet
 RADIUS = 0.30  # m, of the body's upright cylinder
@@ -60,6 +61,7 @@ class Player:
     yaw: float = 0.0  # rad, 0 looks along -z
     pitch: float = 0.0  # rad, positive looks up
     on_ground: bool = True
+    flying: bool = False
     _walked: float = 0.0  # m, for the head's bob
     _bob: float = 0.0  # 0..1, how much of the bob shows
     _lag: float = 0.0  # m, how far the eye is behind a step just climbed
@@ -71,6 +73,17 @@ class Player:
         self.velocity = np.zeros(3)
         self.yaw, self.pitch = yaw, 0.0
         self.on_ground, self._lag, self._bob = True, 0.0, 0.0
+        self.flying = False
+
+    def switch_flight(self) -> None:
+        """Fly, or come down again: from beyond the place's rim to its edge."""
+        self.flying = not self.flying
+        self.on_ground = False
+        if not self.flying:
+            (x0, _, z0), (x1, _, z1) = self.ground.bounds
+            self.position[0] = min(max(self.position[0], x0), x1)
+            self.position[2] = min(max(self.position[2], z0), z1)
+            self.velocity *= 0.0
 
     def look(self, turn: float, rise: float) -> None:
         """Turn to the left by `turn` and look up by `rise`, rad."""
@@ -89,9 +102,20 @@ class Player:
         """Move for dt seconds (any length: it is cut into short steps)."""
         if not (math.isfinite(dt) and dt >= 0.0):
             raise ValueError(f"dt: got {dt!r}, allowed: finite and not negative, s")
+        if self.flying:
+            self._fly(dt, intent)
+            return
         steps = max(1, math.ceil(dt / LONGEST_STEP - 1e-9))
         for index in range(steps):
             self._step(dt / steps, intent, jump=intent.jump and index == 0)
+
+    def _fly(self, dt: float, intent: Intent) -> None:
+        self.velocity = velocity_of(self.velocity, self.yaw, self.pitch, intent, dt)
+        to = self.position + self.velocity * dt
+        (x0, _, z0), (x1, _, z1) = self.ground.bounds
+        x, z = min(max(float(to[0]), x0), x1), min(max(float(to[2]), z0), z1)
+        self.position = kept_in(to, self.ground.floor_height(x, z, math.inf))
+        self._bob = 0.0
 
     def _step(self, dt: float, intent: Intent, *, jump: bool) -> None:
         self._accelerate(dt, intent)

@@ -238,3 +238,26 @@ def not_inside(player: Player, shape: Box | Post) -> bool:
     u, w = dx * c - dz * s, dx * s + dz * c
     gap = math.hypot(max(abs(u) - shape.half[0], 0.0), max(abs(w) - shape.half[1], 0.0))
     return gap > RADIUS - 0.03
+
+
+def test_flight_goes_where_the_eyes_look_and_ends_on_the_ground() -> None:
+    player = Player(Flat())
+    player.switch_flight()
+    player.look(0.0, math.radians(30.0))
+    for _ in range(600):
+        player.update(1.0 / 60.0, Intent(forward=1.0, run=True))
+    x, y, z = player.position
+    assert abs(x) < 1e-6 and z < -1000.0  # beyond the rim of the place
+    assert y == pytest.approx(-z * math.tan(math.radians(30.0)), rel=1e-6)
+    for _ in range(600):
+        player.update(1.0 / 60.0, STILL)
+    assert np.linalg.norm(player.velocity) < 1e-6  # it hangs in the air
+    player.look(0.0, math.radians(-90.0))
+    for _ in range(3600):
+        player.update(1.0 / 60.0, Intent(forward=1.0, run=True))
+    assert player.position[1] == 0.0  # not through the ground
+    player.switch_flight()
+    assert player.position[2] == -50.0
+    for _ in range(120):
+        player.update(1.0 / 60.0, STILL)
+    assert player.on_ground and player.position[1] == 0.0

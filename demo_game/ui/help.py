@@ -11,7 +11,7 @@ LEFT = (
     ("mouse", "look"),
     ("Shift", "run"),
     ("Space", "jump"),
-    ("", ""),
+    ("F", "fly, and walk again"),
     ("Esc", "pause and settings"),
     ("F1", "this page"),
     ("F3", "readout"),
