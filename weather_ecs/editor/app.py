@@ -134,6 +134,8 @@ class EditorWindow(pyglet.window.Window):
 
     def _draw_all(self) -> None:
         """Menus, panels, what asks; then what keys have called for."""
+        if imgui.is_key_pressed(imgui.Key.escape):
+            imgui.internal.close_popups_except_modals()
         self.session.look_at_disk()
         menus = menus_of(self)
         self.shared.workspace = draw_bar(menus, WORKSPACES, self.shared.workspace)

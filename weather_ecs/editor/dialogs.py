@@ -110,6 +110,9 @@ class _modal:
         size = imgui.get_io().display_size
         middle = imgui.ImVec2(0.5 * size.x, 0.45 * size.y)
         imgui.set_next_window_pos(middle, imgui.Cond_.always, imgui.ImVec2(0.5, 0.5))
+        # Wrapped text in its first frame has no width to go by.
+        wide = min(_WIDE + 40.0, 0.95 * size.x)
+        imgui.set_next_window_size(imgui.ImVec2(wide, 0.0), imgui.Cond_.appearing)
         self._open = bool(imgui.begin_popup_modal(self._title, None, _FLAGS)[0])
         return self._open
 

@@ -134,7 +134,10 @@ def _row(thing: Thing, label: str, fields: tuple[str, ...], share: float = LABEL
     start = imgui.get_cursor_pos_x()
     imgui.align_text_to_frame_padding()
     imgui.text_colored(theme.vec4(theme.LABEL), label)
-    tip = "\n".join(dict.fromkeys(info(type(thing.part), each).tooltip() for each in fields))
+    known = [info(type(thing.part), each) for each in fields]
+    tip = known[0].tooltip()
+    if len(known) > 1:
+        tip = "\n".join(f"{each.label}: {each.tooltip()}" for each in known)
     tip_of_last(tip)
     imgui.same_line(start + share * width)
     imgui.set_next_item_width(-1.0)
