@@ -111,6 +111,14 @@ def test_an_edit_shows_at_once_and_leaves_the_rest_where_it_is(simulation: Simul
     live = simulation.live(heavier)
     assert live is not None and live.rain_rate == 80.0 and live.center == place
     assert not simulation.follows  # the way here was another weather's
+    simulation.step(1.0)
+    simulation.finish()
+    assert simulation.time == pytest.approx(21.0) and not simulation.follows  # on from here
+    simulation.step(-1.0)
+    simulation.finish()
+    assert simulation.time == pytest.approx(20.0) and simulation.follows  # anew from the start
+    simulation.show(content)
+    simulation.show(edited)
     simulation.again()
     simulation.finish()
     assert simulation.follows and simulation.time == pytest.approx(20.0)

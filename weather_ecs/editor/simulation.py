@@ -149,10 +149,16 @@ class Simulation:
             self._target = None
 
     def step(self, seconds: float) -> None:
-        """Go on by so many seconds, or back; the weather then stands."""
+        """Go on by so many seconds, or back; the weather then stands.
+
+        On goes from what is there, whether or not the document has changed on the way.
+        """
         self.running = False
-        here = self.target if self._target is not None else self.time
-        self.seek(max((here or 0.0) + seconds, 0.0))
+        here = self.time if self.target is None else self.target
+        if seconds < 0.0:
+            self.seek(max(here + seconds, 0.0))
+        else:
+            self._target = round((here + seconds) / STEP)
 
     def again(self) -> None:
         """Run to the present moment again from the start, by the document as it is now."""
