@@ -176,7 +176,7 @@ def fog_depth(visibility: float) -> float:
 
 def displayed(light: Light) -> tuple[float, float, float]:
     """The fog's colour for the weather, whose own curve then shows it as the scene's curve does."""
-    r, g, b = (shown(value) ** 2.2 for value in light.horizon_color)
+    r, g, b = (shown(value) ** 2.2 for value in light.fog_color)
     return r, g, b
 
 

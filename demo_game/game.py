@@ -99,7 +99,7 @@ class Game:
         if metar is not None or self._has_whole_play:
             # Theirs is to count from the first frame on.
             self.mood.put(replace(self.mood.current, rain_rate=0.0), METAR)
-        elif tour is None and preset in PRESETS and preset not in AIRS:
+        elif tour is None and preset not in AIRS and self.mood.current.rain_rate > 0.0:
             # A shower ahead to walk into, and sun here.
             state, overcast = OPENING
             self.mood.put(replace(self.mood.current, state=state, overcast=overcast), preset)
@@ -484,7 +484,7 @@ class Game:
             overcast=overcast,
             wetness=0.0,  # but in the rain areas, which the renderer wets itself
             fog_density=self.weather.air(position=self.pose.eye).extinction,
-            fog_color=light.horizon_color,
+            fog_color=light.fog_color,
             fog_overhead=fog_overhead(mood.visibility),
             rain_areas=self._patches(mood),
             wind=self._wind(mood),

@@ -14,7 +14,9 @@ Color = tuple[float, float, float]
 LATITUDE = 50.0  # degrees north
 DAY = 86_400.0  # s
 LEAST_HEIGHT = 0.06  # sine, of what casts shadows: long ones find no end
-SEEN = 0.15  # of the light on level ground of a bright day, below which the game shows more of it
+# Of the light on level ground of a bright day, below which the game shows more of it, and by which
+# power: under clouds, and in the dark.
+SEEN = (0.5, 0.3), (0.15, 0.4)
 MOST_EXPOSURE = 5.0
 LAMPS_DARK, LAMPS_LIGHT = 0.25, 0.85  # light on level ground between which lamps are turned up
 LAMPS_LEAST = 0.04  # by day
@@ -50,6 +52,18 @@ class Light:
     horizon_color: Color = (0.69, 0.82, 0.95)
     ground_color: Color = (0.13, 0.14, 0.13)
     lamps: float = LAMPS_LEAST  # 0..1, how bright they burn
+
+    @property
+    def fog_color(self) -> Color:
+        """Of fog and of the air far off: as the weather has it, lit from all round."""
+        high = 0.05 * self.sun_direction[1]
+        r, g, b = (
+            0.75 * horizon + 0.25 * zenith + high * sun
+            for horizon, zenith, sun in zip(
+                self.horizon_color, self.zenith_color, self.sun_color, strict=True
+            )
+        )
+        return r, g, b
 
     @property
     def level(self) -> float:
@@ -157,7 +171,10 @@ class SkyChanger:
         """
         air = self.atmosphere
         bare = light.level / air.exposure
-        wider = min(max((SEEN / max(bare, 1e-6)) ** 0.7, 1.0), MOST_EXPOSURE)
+        wider = 1.0
+        for level, power in SEEN:
+            wider *= max(level / max(bare, 1e-6), 1.0) ** power
+        wider = min(wider, MOST_EXPOSURE)
         # What changes by less nobody sees, and it would make the light anew every frame.
         overcast, exposure = round(overcast, 2), round(50.0 * wider * gloom) / 50.0
         if air.overcast != overcast:

@@ -51,12 +51,19 @@ def begin(
     start = end if before is None else before.at(now)
     turned = math.remainder(end.wind_heading - start.wind_heading, math.tau)
     end = end._replace(wind_heading=start.wind_heading + turned)
+    # Where nothing falls, an area has the size of the other's: it neither spreads nor draws in.
+    begins, ends = not start.rain_rate and end.rain_rate, start.rain_rate and not end.rain_rate
+    if begins:
+        start = start._replace(rain_radius=end.rain_radius)
+    elif ends:
+        end = end._replace(rain_radius=start.rain_radius)
     course = Course(name, start, end, now, steps)
     entities: dict[str, int] = {}
     if before is None:
         course.stage = CLEARED
     else:
-        course.rates = before.rates_at(now)
+        rates = Conditions(*before.rates_at(now))
+        course.rates = rates._replace(rain_radius=0.0) if begins else rates
         known = {uid: entity for entity, uid in state.uids.current().items()}
         for what, uid in before.owned.items():
             entity = known.get(uid)
