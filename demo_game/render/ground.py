@@ -15,7 +15,7 @@ from .environment import Environment
 from .frame_block import FrameBlock
 from .programs import Look, Variants, compile_program, release_all, set_uniforms
 
-COARSE_FROM = 48.0  # m, from where chunks have few triangles
+COARSE_FROM = 32.0  # m, from where chunks have few triangles
 DRIES = 1800.0  # s after the last rain until the ground is certainly dry
 DETAIL_REACH = 26.0  # m, up to which the ground has its fine grain
 UNITS = {"shadow_map": 0, "detail_map": 1, "meadow_map": 2, "sky_map": 3}
