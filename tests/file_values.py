@@ -92,7 +92,15 @@ ROOTS = component(
     seeds_start=FEW,
     seeds_end=FEW,
 )
-SEEDS = component(CloudSeed, roots=st.lists(ROOTS, max_size=2), images=IMAGES)
+NEAR, WIDE = st.floats(-5000.0, 5000.0), st.floats(20_000.0, 1e7)  # m: clouds fit in their layers
+SEEDS = component(
+    CloudSeed,
+    center=st.tuples(NEAR, NEAR, NEAR),
+    width=st.floats(1e-3, 5000.0),
+    depth=st.floats(1e-3, 5000.0),
+    roots=st.lists(ROOTS, max_size=2),
+    images=IMAGES,
+)
 MODELS = component(
     CloudModel, name=NAMES, seeds=st.lists(SEEDS, min_size=1, max_size=3), images=IMAGES
 )
@@ -106,7 +114,8 @@ def contents(draw: Any) -> CloudFile:
     clouds = st.lists(component(Cloud, model=names), max_size=2)
     sky = component(Sky, models=st.lists(names, max_size=3), weights=st.just(()))
     skies = st.lists(sky, max_size=3, unique_by=lambda each: each.state)
-    layers = draw(st.lists(component(SkyLayer, skies=skies), max_size=2))
+    sizes = st.tuples(WIDE, WIDE)
+    layers = draw(st.lists(component(SkyLayer, skies=skies, size=sizes), max_size=2))
     climates = st.lists(
         st.none() | component(ONE["climate"]), min_size=len(layers), max_size=len(layers)
     )

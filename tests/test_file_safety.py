@@ -73,8 +73,16 @@ def test_names_that_no_file_can_have(tmp_path):
     for name in ("a\0b", "x" * 5000):
         with pytest.raises(WeatherFileError):
             load_clouds(tmp_path / name)
-        with pytest.raises((OSError, ValueError)):
+        with pytest.raises(OSError):
             save_clouds(tmp_path / name, CloudFile())
+    a, b = tmp_path / "a", tmp_path / "b"
+    a.symlink_to(b)
+    b.symlink_to(a)
+    with pytest.raises(WeatherFileError):
+        load_clouds(a)
+    with pytest.raises(OSError):
+        save_clouds(a, CloudFile())
+    assert a.is_symlink() and b.is_symlink()
 
 
 def test_pipes_and_devices_are_not_read(tmp_path):

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from datetime import date, datetime, timedelta, timezone
+from datetime import time as clock
 from pathlib import Path
 from typing import Any
 
 import esper
+import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from tests.file_values import contents
@@ -33,6 +36,7 @@ QUICK = settings(
     deadline=None,
     max_examples=60,
     derandomize=True,
+    phases=[Phase.explicit, Phase.generate],  # a failure is told at once, not made small
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 WHOLE = """version = 2
@@ -234,8 +238,12 @@ def test_a_bad_content_is_neither_added_nor_saved(tmp_path):
     path = tmp_path / "bad.toml"
     with pytest.raises(WeatherFileError, match=r"bad.toml: clouds\[0\].model: got 'nothing'"):
         save_clouds(path, bad)
-    for extra in ({"a": None}, {"a": {"b": object()}}, {"a": [b"x"]}):
-        with pytest.raises(WeatherFileError, match="cannot hold"):
+    zone = timezone(timedelta(hours=1))
+    for extra in (
+        *({"a": None}, {"a": {"b": object()}}, {"a": [b"x"]}, {5: 6}, {"a": "\ud800"}),
+        *({"a": clock(7, 30, tzinfo=zone)}, {"a": 10**5000}),
+    ):
+        with pytest.raises(WeatherFileError, match=r"bad.toml: extra: .*cannot hold"):
             save_clouds(path, CloudFile(extra=extra))
     deep: Any = 1
     for _ in range(5000):
@@ -247,6 +255,19 @@ def test_a_bad_content_is_neither_added_nor_saved(tmp_path):
         with pytest.raises(Exception, match="nothing"):
             weather.add(bad)
         assert not esper.get_component(Cloud)
+
+
+def test_extra_holds_whatever_toml_does(tmp_path):
+    extra = {
+        "a key": [1, 2.5, "x", True, [], {}, [{"b": 1}]],
+        "when": datetime(2025, 1, 2, 3, 4, 5, tzinfo=timezone(timedelta(hours=1))),
+        "day": date(2025, 1, 2),
+        "at": clock(7, 30),
+        "few": np.float64(0.1),
+        "": {"ä": "é \x7f \n\t\"'"},
+    }
+    save_clouds(tmp_path / "extra.toml", CloudFile(extra=extra))
+    assert load_clouds(tmp_path / "extra.toml").extra == extra
 
 
 def test_every_preset_of_a_sky_comes_back(tmp_path):

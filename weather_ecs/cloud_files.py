@@ -7,6 +7,9 @@ to end, or refused with its line and key.
 from __future__ import annotations
 
 import os
+import tomllib
+from collections.abc import Mapping
+from typing import Any
 
 from weather_ecs import file_text, toml_text
 from weather_ecs.components import CloudModel
@@ -42,13 +45,23 @@ def text_of(name: str, content: CloudFile) -> str:
     try:
         check_content(content)
         document = document_of(content)
-        if file_text.depth(content.extra) > file_text.DEEPEST - 2:
-            raise InvalidValueError("extra", "deeper tables", f"{file_text.DEEPEST - 2} levels")
+        if content.extra:
+            _check_extra(name, content.extra)
         return toml_text.dumps(document)
     except InvalidValueError as bad:
         raise WeatherFileError.of(name, None, bad.field, bad.value, bad.allowed) from None
-    except TypeError as error:  # of something in `extra`
-        raise WeatherFileError(name, str(error)) from None
+
+
+def _check_extra(name: str, extra: Mapping[str, Any]) -> None:
+    """What is anybody's may be anything: it is tried whether it can be read back."""
+    if file_text.depth(extra) > file_text.DEEPEST - 2:
+        raise InvalidValueError("extra", "deeper tables", f"{file_text.DEEPEST - 2} levels")
+    try:
+        text = toml_text.dumps({"extra": extra})
+        text.encode("utf-8")
+        tomllib.loads(text)
+    except (ValueError, TypeError, RecursionError) as error:
+        raise WeatherFileError(name, f"extra: a TOML file cannot hold it: {error}") from None
 
 
 def save_clouds(path: str | os.PathLike[str], content: CloudFile) -> None:

@@ -76,7 +76,10 @@ def write_text(name: str, text: str) -> None:
     data = text.encode("utf-8")
     if len(data) > LARGEST or max(map(len, text.split("\n"))) > LONGEST_LINE:
         raise WeatherFileError(name, f"more than {LARGEST} bytes, or {LONGEST_LINE} in a line")
-    target = Path(name).resolve()
+    try:
+        target = Path(name).resolve()
+    except (RuntimeError, ValueError) as error:  # links in a circle, a name that cannot be
+        raise OSError(errno.EINVAL, str(error), name) from None
     before = _mode(target)
     if before is not None and not (before & 0o222 and os.access(target, os.W_OK)):
         raise PermissionError(errno.EACCES, "the file is write-protected", name)

@@ -66,8 +66,10 @@ def value_text(value: Any, column: int = 0) -> str:
     """A value that begins at a column. Raises TypeError for what TOML cannot hold."""
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, (int, float)):
-        return repr(value)  # the shortest digits that give the float back; also inf
+    if isinstance(value, int):
+        return repr(int(value))
+    if isinstance(value, float):
+        return repr(float(value))  # the shortest digits that give it back; also inf
     if isinstance(value, str):
         return _string(value)
     if isinstance(value, (datetime, date, time)):
