@@ -85,6 +85,13 @@ def test_names_that_no_file_can_have(tmp_path):
     assert a.is_symlink() and b.is_symlink()
 
 
+def test_a_byte_order_mark_is_no_harm(tmp_path):
+    path = tmp_path / "notepad.toml"
+    path.write_bytes(b"\xef\xbb\xbfversion = 2\r\n[fog]\r\nvisibility = 5\r\n")
+    fog = load_clouds(path).fog
+    assert fog is not None and fog.visibility == 5.0
+
+
 def test_pipes_and_devices_are_not_read(tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)

@@ -43,7 +43,7 @@ def read_text(name: str) -> str:
     if len(data) > LARGEST:
         raise WeatherFileError(name, f"longer than {LARGEST} bytes")
     try:
-        return data.decode("utf-8")
+        return data.decode("utf-8-sig")  # some editors begin a file with a mark that says so
     except UnicodeDecodeError as error:
         raise WeatherFileError(name, f"not UTF-8 text: {error}") from None
 
