@@ -62,7 +62,7 @@ def test_the_scene_hides_it_and_is_met_softly(stage: CloudStage) -> None:
     for distance in (20.0, 300.0, 450.0, 700.0, 1500.0):
         painted, straight = both(stage, frame, depth=depth_of(distance))
         difference = np.abs(painted - straight).max(axis=2)
-        assert difference.mean() < 0.01 and np.percentile(difference, 99) < 0.10, distance
+        assert difference.mean() < 0.015 and np.percentile(difference, 99) < 0.20, distance
     assert not stage.cover(stage.draw(frame, pitch=0.5, depth=depth_of(20.0))).any()
 
 

@@ -20,12 +20,14 @@ from weather_ecs.gpu.cloud_sequence import BILLBOARDS, SOFT, Items
 from weather_ecs.gpu.cloud_store import CloudStore
 
 FACTORS = (4, 3, 2)  # pixels of the picture on a side of one of the canvas
-SHARP = 1.95  # pixels of the picture that a texel may take before it counts as enlarged
+SHARP = 2.2  # pixels of the picture that a texel may take before it counts as enlarged
+HEAVY = 0.8  # of the picture's pixels: a cloud that covers more, one over the other, is
+LENIENT = 1.7  # times as blurred as others
 OPEN = 0.5  # of the picture, that the scene may be taken to leave free
 WORTH = 0.5  # of the pixels of a canvas that are seen, that it must save to be worth it
 MOST = 4  # canvases in a draw
 NEAREST = 4.0  # m, of a guard
-SPARE = 1.1  # of a cloud's box
+SPARE = 1.02  # of a cloud's box
 MIDST = 0.6  # of a cloud's reach: as near it counts at least
 
 Floats = NDArray[np.float64]
@@ -40,15 +42,17 @@ class Group(NamedTuple):
     factor: int
     depth: tuple[float, float, float]  # of the guard: by x, by y, and in the middle; -1 to 1
     rectangle: Rectangle
+    beyond: bool  # what stands among the clouds
 
 
 def find_groups(
     view: ViewData, scene: CloudScene, store: CloudStore, drawn: NDArray, items: Items,
-    tiles: NDArray, seen: Seen,
+    tiles: NDArray, seen: Seen, parted: float,
 ) -> list[Group]:  # fmt: skip
     """The groups among `items`, which show the clouds `drawn`.
 
-    tiles: heights of their pictures; seen: of those with billboards.
+    tiles: heights of their pictures; seen: of those with billboards; parted: m from the camera,
+    where something stands that no group has clouds on both sides of.
     """
     found: list[Group] = []
     some = items.ends > items.begins
@@ -58,15 +62,19 @@ def find_groups(
     enlarged = _enlarged(scene, store, drawn, bills, tiles)
     area, low, high = np.zeros(len(drawn)), -np.ones((len(drawn), 2)), np.ones((len(drawn), 2))
     area[bills], low[bills], high[bills] = seen.area, seen.low, seen.high
+    enlarged[area > HEAVY * seen.whole] *= LENIENT
     # What draws nothing is in nobody's way.
     good = np.append((enlarged >= FACTORS[-1]) | ~some, False)
     center, half = scene.center[drawn], SPARE * scene.half[drawn]
+    beyond = scene.away[drawn] > parted
     first = 0
     while first < len(drawn) and len(found) < MOST:
         if not (good[first] and bills[first] and some[first]):
             first += 1
             continue
         inside = first + np.flatnonzero(some[first : first + int(np.argmin(good[first:]))])
+        others = beyond[inside] != beyond[first]
+        inside = inside[: int(np.argmax(np.append(others, True)))]
         held, guard = _guard(center[inside], half[inside])
         inside = inside[:held]
         inside = inside[: int(np.max(np.flatnonzero(bills[inside]), initial=-1)) + 1]
@@ -78,7 +86,8 @@ def find_groups(
             if area[inside].sum() * (OPEN - factor**-2) > WORTH * OPEN * shown:
                 rectangle = float(left), float(bottom), float(right), float(top)
                 depth = _depth(view, *guard)
-                found.append(Group(first, int(inside[-1]) + 1, factor, depth, rectangle))
+                last = int(inside[-1]) + 1
+                found.append(Group(first, last, factor, depth, rectangle, bool(beyond[first])))
             first = int(inside[-1])
         first += 1
     return found

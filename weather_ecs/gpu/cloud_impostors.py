@@ -40,6 +40,11 @@ KEPT_DTYPE = np.dtype(
 
 FADE = 0.5  # s, in which a new picture replaces the old one
 CLOSE = 1.35  # reaches from a cloud's centre, nearer than which there are no impostors
+VAST, CLOSE_TO_VAST = 3000.0, 1.12  # m of reach, from which it is so many: nobody soon gets far
+SHARE = 0.5  # of the atlas, that the pictures of what is in view may take
+ENOUGH = 0.7  # texels of a picture for each of its pixels
+LARGE = 1.6  # pixels for each texel of the largest picture, above which billboards are drawn
+UNIT = 96  # texels, height of a picture as the budget counts them
 PIXELS_OFF = 1.3  # parallax that is let be
 _STATE = np.array([0.04, 0.05, 0.06, 0.04, 0.04])  # changes that are let be
 
@@ -50,6 +55,7 @@ class Plan:
 
     real: NDArray[np.intp]  # with billboards
     take: list[tuple[int, int]]  # (cloud, height of the tile)
+    largest: int = 0  # texels, height of a tile
     lost: int = 0  # clouds that found no room
 
 
@@ -114,9 +120,9 @@ class Impostors:
         has = kept["tile"][:, 2] > 0
         has &= kept["shape"] == versions[:, 0]
         size = scene.pixels
-        near = scene.away < CLOSE * scene.reach
+        near = scene.away < np.where(scene.reach > VAST, CLOSE_TO_VAST, CLOSE) * scene.reach
         # Once too large for a picture, a cloud stays so until it is clearly smaller.
-        limit = largest * np.where(kept["large"], 0.85, 1.0)
+        limit = LARGE * largest * np.where(kept["large"], 0.85, 1.0)
         wants = scene.visible & (near | (size > limit))
         if scene.parallel:
             wants = near = scene.visible
@@ -143,8 +149,9 @@ class Impostors:
         urgency = np.minimum(error[chosen], 1e6) * np.where(scene.visible[chosen], 1e3, 1.0)
         urgency += 1e-3 / (1.0 + scene.away[chosen])
         chosen = chosen[np.argsort(-urgency, kind="stable")]
-        plan = Plan(real, [])
-        room = budget * 64.0 * 64.0
+        largest = self._room(size[scene.visible & ~(wants & is_real)], largest)
+        plan = Plan(real, [], largest)
+        room = float(budget * UNIT * UNIT)
         for index in (*must.tolist(), *chosen[:budget].tolist()):
             side = _side(float(size[index]), largest)
             forced = len(plan.take) < len(must)
@@ -153,6 +160,14 @@ class Impostors:
             room -= side * side
             plan.take.append((index, side))
         return plan
+
+    def _room(self, size: NDArray, largest: int) -> int:
+        """The largest tile with which pictures of so many pixels all have room."""
+        room = SHARE * self.atlas.height**2
+        sides = np.exp2(np.ceil(np.log2(np.maximum(ENOUGH * size, Atlas.SMALLEST))))
+        while largest > Atlas.SMALLEST and (np.minimum(sides, largest) ** 2).sum() > room:
+            largest //= 2
+        return largest
 
     def _errors(
         self, scene: CloudScene, versions: NDArray, size: NDArray, largest: int
@@ -273,8 +288,8 @@ def _state(clouds: NDArray) -> NDArray[np.float64]:
 
 
 def _side(pixels: float, largest: int) -> int:
-    """Height of the tile for a picture of so many pixels; a little too small is good enough."""
+    """Height of the tile for a picture of so many pixels."""
     side = Atlas.SMALLEST
-    while side < largest and side < 0.85 * pixels:
+    while side < largest and side < ENOUGH * pixels:
         side *= 2
     return side

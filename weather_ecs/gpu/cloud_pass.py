@@ -76,7 +76,7 @@ class CloudPass:
         return self._store
 
     def impostors(self, observer: int = 0) -> Impostors | None:
-        """An observer's impostors; for tests and statistics."""
+        """An observer's; for tests."""
         return self._observers.get(observer)
 
     def draws(self, view: ViewData) -> bool:
@@ -111,7 +111,7 @@ class CloudPass:
         self._is_inside = self._inside.update(view, scene, store, light)
         self._programs.light(view, light)
         self._use_textures(store, impostors)
-        refreshed = self._take(scene, store, impostors, plan, settings.cloud_tile)
+        refreshed = self._take(scene, store, impostors, plan)
         self._stream.forget_unused()
         self.stats = {
             "clouds_drawn": len(scene.order),
@@ -160,9 +160,7 @@ class CloudPass:
         rows[: len(self._real), 0, 3] *= self._shares[self._by_billboards] ** 2
         self._rows.write(rows)
 
-    def _take(
-        self, scene: CloudScene, store: CloudStore, impostors: Impostors, plan: Plan, largest: int
-    ) -> int:
+    def _take(self, scene: CloudScene, store: CloudStore, impostors: Impostors, plan: Plan) -> int:
         programs = self._programs
         programs.haze(0.0)
         self._ctx.enable_only(moderngl.BLEND)
@@ -170,7 +168,7 @@ class CloudPass:
         refreshed = 0
         for row, (index, _) in enumerate(plan.take, len(self._real)):
             shape = store.shapes[int(scene.shapes[index])]
-            placed = impostors.place(scene, shape, index, largest)
+            placed = impostors.place(scene, shape, index, plan.largest)
             if placed is None:
                 plan.lost += 1
                 continue
@@ -187,23 +185,22 @@ class CloudPass:
         view: ViewData,
         depth: Callable[[], moderngl.Texture],
         viewport: tuple[int, int, int, int],
-        apart: bool,
+        parted: float = 0.0,
     ) -> None:
         """Before `draw`: paint near clouds on canvases. Changes what `update` changes.
 
-        depth: copies the scene's; apart: something stands among the clouds, and they are all drawn
-        into the picture itself.
+        depth: copies the scene's; parted: m, where something stands among the clouds.
         """
         meets = meeting(view, self._scene, self._real)
         items, self._groups = self._find_items(view, meets), []
         self._matrix = camera_matrix(view)
         self._programs.aim(self._matrix)
         look = view.frame.cloud_look
-        if self.canvases_on and not (apart or look.plain or look.rays):
+        if self.canvases_on and not (look.plain or look.rays):
             tiles = self._observers[view.key].kept["tile"][self._drawn, 2]
             assert self._store is not None
             self._groups = find_groups(
-                view, self._scene, self._store, self._drawn, items, tiles, self._seen
+                view, self._scene, self._store, self._drawn, items, tiles, self._seen, parted
             )
         for group in self._groups:
             kinds = items.kinds[group.first : group.last]
@@ -216,30 +213,32 @@ class CloudPass:
         self._items = items
 
     def draw(self, view: ViewData, between: Between | None = None) -> None:
-        """Draw the visible clouds. Blending, the depth test and no depth writes are the caller's.
-
-        between: something that stands among them.
-        """
-        programs, scene, items = self._programs, self._scene, self._items
+        """Draw the visible clouds; blending, depth test and no depth writes are the caller's."""
+        items = self._items
         self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
         if between is None:
-            first = 0
-            for number, group in enumerate(self._groups):
-                programs.draw(items.part(first, group.first))
-                self._canvases.show(number, group)
-                first = group.last
-            programs.draw(items.part(first, len(items.kinds)))
+            self._sequence(items, True)
         else:
             before, after = items.parted(self._middles(between.distance))
-            programs.draw(before)
+            self._sequence(before, True)
             between.draw()
             self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-            programs.draw(after)
+            self._sequence(after, False)
         if view.frame.cloud_look.rays:
-            self._rays.draw(scene, self._store, self._real, self._matrix, self._rows)
+            self._rays.draw(self._scene, self._store, self._real, self._matrix, self._rows)
         if self._is_inside:
             self._inside.draw(view.projection)
         self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
+
+    def _sequence(self, items: Items, beyond: bool) -> None:
+        """Draw items, and the canvases that are beyond what stands among the clouds, or not."""
+        first = 0
+        for number, group in enumerate(self._groups):
+            self._programs.draw(items.part(first, group.first))
+            if group.beyond is beyond:
+                self._canvases.show(number, group)
+            first = group.last
+        self._programs.draw(items.part(first, len(items.kinds)))
 
     def _middles(self, distance: float) -> NDArray[np.intp]:
         """Where in each item what is farther off than that ends, m."""

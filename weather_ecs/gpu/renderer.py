@@ -281,13 +281,14 @@ class Renderer:
     def _draw_clouds(
         self, view: ViewData, viewport: tuple[int, int, int, int], bolts: bool
     ) -> None:
-        self._clouds.paint(view, self._copy_depth, viewport, bolts)
+        parted = self._bolts.distance(view) if bolts else 0.0
+        self._clouds.paint(view, self._copy_depth, viewport, parted)
         self._guard.bind_framebuffer()
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
         among = None
         if bolts:
-            among = Between(self._bolts.distance(view), lambda: self._bolts.draw(view))
+            among = Between(parted, lambda: self._bolts.draw(view))
         self._clouds.draw(view, among)
 
     def _draw_bolts(self, view: ViewData, rain: Rain | None) -> None:
