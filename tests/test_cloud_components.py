@@ -170,3 +170,18 @@ def test_a_snapshot_with_values_nested_too_deeply_is_refused():
         document["entities"][0][1]["Climate"]["speed"] = deep
         with pytest.raises(SnapshotError, match="deep"):
             weather.restore(snapshot.encode(document))
+
+
+def test_a_rectangle_smaller_than_a_cloud_is_refused() -> None:
+    seeds = (CloudSeed((-300.0, 0.0, 0.0), 400.0, 100.0, 500.0), CloudSeed((300.0, 0.0, 100.0)))
+    model = CloudModel("wide", seeds)
+    assert model.span() == (850.0, 500.0)
+    skies = (Sky(0.0, (model,), count=3),)
+    with pytest.raises(InvalidValueError, match=r"SkyLayer\.size.*wide: 500 by 850 m"):
+        SkyLayer(size=(2000.0, 499.0), skies=skies)
+    layer = SkyLayer(size=(500.0, 850.0), skies=skies)  # it may be turned
+    with pytest.raises(InvalidValueError, match="wide"):
+        layer.size = (800.0, 800.0)
+    assert layer.size == (500.0, 850.0)
+    # What a name means is known to who looks it up.
+    SkyLayer(size=(1.0, 1.0), skies=(Sky(0.0, ("wide",), count=3),))

@@ -142,6 +142,7 @@ MODELS = st.builds(
 QUICK = settings(
     deadline=None,
     max_examples=40,
+    derandomize=True,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 
@@ -168,6 +169,13 @@ def test_models_that_are_held_are_written_once_and_named(tmp_path):
     with pytest.raises(WeatherFileError, match=r"mine.*differ"):
         save_clouds(path, CloudFile((model, other)))
     assert path.read_bytes() == before
+
+
+def test_a_layer_with_no_room_for_a_model_of_its_file_is_refused(tmp_path):
+    model = CloudModel("mine", (CloudSeed(width=900.0),))
+    layer = SkyLayer(size=(800.0, 800.0), skies=(Sky(0.5, ("mine",), count=3),))
+    with pytest.raises(WeatherFileError, match=r"layers\[0\]\.size.*mine: 100 by 900 m"):
+        save_clouds(tmp_path / "narrow.toml", CloudFile((model,), layers=(layer,)))
 
 
 # A change of GOOD, the line and key that the error names, and words of what is allowed.

@@ -173,6 +173,18 @@ def _check_names(content: CloudFile, before: CloudFile | None) -> None:
     for index, layer in enumerate(content.layers):
         for inner, sky in enumerate(layer.skies):
             _check_used(sky.models, usable, ("layers", index, "skies", inner, "models"))
+        _check_room(layer, content.models, ("layers", index, "size"))
+
+
+def _check_room(layer: SkyLayer, models: Sequence[CloudModel], path: Path) -> None:
+    """The file's own models are in its layers by their names, which say nothing of their size."""
+    names = {model for sky in layer.skies for model in sky.models if isinstance(model, str)}
+    for model in models:
+        if model.name in names:
+            try:
+                layer.check_holds(model)
+            except InvalidValueError as error:
+                raise PlacedError(path, error.value, error.allowed) from None
 
 
 def _check_used(models: Sequence[CloudModel | str], usable: set[str], path: Path) -> None:

@@ -67,6 +67,16 @@ class CloudModel(Agreeing):
         """The most seeds that a cloud of this model can have."""
         return len(self.seeds) + sum(seed.descendants() for seed in self.seeds)
 
+    def span(self) -> tuple[float, float]:
+        """Width and depth, m, that every cloud of this model has at least: of its own seeds."""
+        x = [(s.center[0], 0.5 * s.width) for s in self.seeds]
+        z = [(s.center[2], 0.5 * s.depth) for s in self.seeds]
+        wide, deep = (
+            max(at + half for at, half in side) - min(at - half for at, half in side)
+            for side in (x, z)
+        )
+        return wide, deep
+
     def agree(self) -> None:
         if not self.seeds:
             raise InvalidValueError("CloudModel.seeds", self.seeds, "at least one seed")

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from weather_ecs.components._agreeing import Agreeing, parts
 from weather_ecs.components._base import FAR, Check, number, vector
+from weather_ecs.components.cloud_model import CloudModel
 from weather_ecs.components.rain_area import FASTEST
 from weather_ecs.components.sky import Sky
 from weather_ecs.errors import InvalidValueError
@@ -21,7 +22,8 @@ class SkyLayer(Agreeing):
     its `Climate`: the one on the same entity, or else the oldest entity's. Without any, the state
     is 0. Layers are independent of each other; several may lie above one another. In calm air, and
     wherever there is a `turnover`, clouds also form, dissolve and turn into others where they are.
-    A rectangle smaller than a cloud holds it all the same: only its middle has to be inside.
+    A rectangle smaller than the seeds of a model is refused, where the skies hold the model itself
+    and not its name; of what grows from them, only the middle has to be inside.
     """
 
     base: float = 1000.0  # m, world height of the clouds' bases, -1000 to 1e5
@@ -57,3 +59,14 @@ class SkyLayer(Agreeing):
                 raise InvalidValueError(
                     "SkyLayer.skies", f"two skies of state {state:g}", "states that all differ"
                 )
+        for sky in self.skies:
+            for model in sky.models:
+                if isinstance(model, CloudModel):
+                    self.check_holds(model)
+
+    def check_holds(self, model: CloudModel) -> None:
+        """Raises InvalidValueError where a cloud of this model is larger than the rectangle."""
+        least = sorted(model.span())
+        if any(side < need for side, need in zip(sorted(self.size), least, strict=True)):
+            allowed = f"no smaller than a cloud of {model.name}: {least[0]:g} by {least[1]:g} m"
+            raise InvalidValueError("SkyLayer.size", self.size, allowed)
