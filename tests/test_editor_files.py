@@ -419,6 +419,19 @@ def test_recent_files_are_kept_from_run_to_run(tmp_path):
     Recent(blocked / "recent.json").add(tmp_path)  # nowhere to write: no error
 
 
+def test_without_a_home_there_are_no_recent_files(tmp_path, monkeypatch):
+    def nobody() -> Path:
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.delenv("XDG_CONFIG_HOME", raising=False)
+    monkeypatch.delenv("APPDATA", raising=False)
+    monkeypatch.setattr(Path, "home", nobody)
+    recent = Recent()
+    recent.add(tmp_path)
+    assert recent.paths == (tmp_path,)
+    assert Recent().paths == ()
+
+
 def test_a_file_that_cannot_be_opened_any_more_is_no_recent_one(files, path):
     document = opened(files, path)
     assert files.recent.paths == (path,)

@@ -31,7 +31,10 @@ LAYERS: dict[str, tuple[set[str], set[str]]] = {
 }
 TOP = ("weather", "editor")  # the layers that know of gpu
 # Of the editor, what has to work without a window and its widgets.
-EDITED = ("document", "history", "content", "files", "recent", "clipboard", "commands", "fields")
+EDITED = (
+    *("document", "history", "content", "files", "recent", "kept_text", "toml_tree"),
+    *("clipboard", "pasting", "commands", "fields", "field_texts"),
+)
 # Every other module of the package: clock, snapshot, stats and their like.
 ELSEWHERE: tuple[set[str], set[str]] = ({"numpy", "esper"}, {"*"})  # all but gpu
 USERS = ("demo_game", "benchmarks")

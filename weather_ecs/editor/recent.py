@@ -29,7 +29,12 @@ class Recent:
     """
 
     def __init__(self, path: Path | None = None) -> None:
-        self._path = settings_folder() / "recent.json" if path is None else path
+        if path is None:
+            try:
+                path = settings_folder() / "recent.json"
+            except RuntimeError:  # nobody's home is known
+                path = Path(os.devnull)
+        self._path = path
         self.paths: tuple[Path, ...] = self._read()
 
     def add(self, path: Path) -> None:
@@ -43,6 +48,8 @@ class Recent:
     def _put(self, paths: tuple[Path, ...]) -> None:
         self.paths = paths[:MOST]
         text = json.dumps([str(path) for path in self.paths], indent=1)
+        if self._path == Path(os.devnull):
+            return
         aside = self._path.with_name(f"{self._path.name}.{os.getpid()}")
         with suppress(OSError):
             self._path.parent.mkdir(parents=True, exist_ok=True)
