@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from weather_ecs import CloudFile, Weather, presets
-from weather_ecs.components import Climate, RainArea, Sky, SkyLayer, Wind
+from weather_ecs.components import Climate, RainArea, Sky, SkyLayer, Sun, Wind
 from weather_ecs.editor import whole, world_land
 from weather_ecs.editor.inside import gust_speeds, in_world, law_speeds
 from weather_ecs.editor.map_frame import MapFrame, along, covers, dragged
@@ -174,6 +174,8 @@ def test_every_whole_weather_becomes_a_document_that_can_be_saved() -> None:
         rates = [area.rain_rate for area in content.rain_areas]
         assert rates == ([weather.rain_rate] if weather.rain_rate else [])
         assert content.air is not None and content.air.temperature == weather.temperature
+        assert content.atmosphere is not None
+        assert content.atmosphere.overcast == pytest.approx(0.85 * weather.overcast**3, abs=1e-3)
 
 
 def test_a_whole_weather_rains_as_much_as_it_says() -> None:
@@ -210,6 +212,10 @@ def test_presets_of_rain_and_of_skies() -> None:
     sky = whole.with_sky(CloudFile(rain_areas=(AREA,)), "fair", "storm", 90.0)
     assert sky.climate is not None and (sky.climate.final, sky.climate.duration) == (1.0, 90.0)
     assert len(sky.layers) == 4 and sky.rain_areas == (AREA,)
+    foggy = whole.with_whole(CloudFile(), "fog")
+    cleared = whole.with_sky(foggy, "clear", None, 90.0).atmosphere
+    assert cleared is not None and cleared.overcast is None  # by the climate again
+    assert whole.with_whole(CloudFile(sun=Sun()), "fog").atmosphere is None
 
 
 def test_the_metar_box_says_what_it_understood_and_why_not() -> None:

@@ -13,6 +13,7 @@ from weather_ecs import Weather
 from weather_ecs.clock import STEP as STEP  # s, of a fixed step
 from weather_ecs.components import Wind
 from weather_ecs.frame import FrameData
+from weather_ecs.systems.atmosphere import covered_by as covered_by  # share of the sky
 from weather_ecs.systems.wind import strength, velocity_now
 from weather_ecs.weathers import heading_of as heading_of  # of a bearing, rad
 
@@ -48,6 +49,14 @@ def settle(weather: Weather) -> None:
     clock = weather._state.clock
     if clock.remainder < _SETTLED:
         clock.remainder = 0.0
+
+
+def forget_drawn(weather: Weather) -> None:
+    """Let nothing be left of what was drawn: drops that fly, splashes that have not sunk."""
+    if weather._renderer is not None:
+        key = weather._keys.key(None)
+        weather._view.forget(key)
+        weather._renderer.forget(key)
 
 
 def entities_by_uid(weather: Weather) -> dict[int, int]:

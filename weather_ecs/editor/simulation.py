@@ -19,6 +19,7 @@ from weather_ecs.components._base import Component
 from weather_ecs.editor.inside import (
     STEP,
     entities_by_uid,
+    forget_drawn,
     frame_of,
     in_world,
     settle,
@@ -76,6 +77,7 @@ class Simulation:
         self._timeline.clear()
         self._target = None
         if first:
+            forget_drawn(self.weather)
             self.restart()
             return
         with in_world(self.world):

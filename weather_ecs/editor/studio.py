@@ -59,6 +59,8 @@ class Studio:
             weather.quality = wanted
         self.simulation.show(content, fresh=fresh)
         if fresh:
+            # What was bound of the weather's that is gone could not be put back: no error is left.
+            _ = self.gl.error
             self.simulation.running = False
             self.map_wanted = True
         # On the way to another moment nothing is drawn, so that there is more time to get there.

@@ -9,8 +9,17 @@ import esper
 
 from weather_ecs import CloudFile, Weather, presets
 from weather_ecs.cloud_world import gather
-from weather_ecs.components import Air, Climate, CloudModel, Fog, RainArea, SkyLayer, Wind
-from weather_ecs.editor.inside import in_world
+from weather_ecs.components import (
+    Air,
+    Atmosphere,
+    Climate,
+    CloudModel,
+    Fog,
+    RainArea,
+    SkyLayer,
+    Wind,
+)
+from weather_ecs.editor.inside import covered_by, in_world
 from weather_ecs.metar import MetarReport, read_metar
 from weather_ecs.weathers import WholeWeather
 
@@ -23,14 +32,17 @@ def with_whole(
 ) -> CloudFile:
     """The content with a whole weather's layers, climate, rain, wind, air, fog and lightning.
 
-    Models, clouds, atmosphere and looks stay. What rains falls in the weather's own area, as in a
-    game: clouds that would bring rain besides are made to stay dry. Raises InvalidValueError.
+    Models, clouds, looks and the place of the sun stay; the sky is as covered as the weather says.
+    What rains falls in the weather's own area, as in a game: clouds that would bring rain besides
+    are made to stay dry. Raises InvalidValueError.
     """
     world = f"weather_ecs.editor whole {next(_numbers)}"
     try:
         with in_world(world), Weather() as weather:
             weather.change_to(whole, center=center)
             made = gather(weather._state)
+            now = weather.whole
+            overcast = 0.0 if now is None else covered_by(now.conditions.overcast)
     finally:
         if world in esper.list_worlds():
             esper.delete_world(world)
@@ -52,6 +64,7 @@ def with_whole(
         air=made.air,
         fog=made.fog,
         lightning=made.lightning,
+        atmosphere=_covered(content, overcast),
     )  # fmt: skip
 
 
@@ -61,7 +74,12 @@ def with_sky(content: CloudFile, name: str, to: str | None, duration: float) -> 
     Raises InvalidValueError.
     """
     sky = presets.sky(name, to, duration)
-    return replace(content, layers=sky.layers, layer_climates=(), climate=sky.climate)
+    air = content.atmosphere
+    if air is not None and air.overcast is not None:
+        air = replace(air, overcast=None)  # by the climate again
+    return replace(
+        content, layers=sky.layers, layer_climates=(), climate=sky.climate, atmosphere=air
+    )
 
 
 def with_preset(content: CloudFile, name: str, area: int = 0) -> CloudFile:
@@ -88,6 +106,13 @@ def with_preset(content: CloudFile, name: str, area: int = 0) -> CloudFile:
 def read(text: str) -> MetarReport:
     """A METAR report. Raises MetarError, MissingExtraError."""
     return read_metar(text)
+
+
+def _covered(content: CloudFile, overcast: float) -> Atmosphere | None:
+    """The document's sky, covered so far; where a sun gives the light there is none."""
+    if content.atmosphere is None and content.sun is not None:
+        return None
+    return replace(content.atmosphere or Atmosphere(), overcast=round(overcast, 3))
 
 
 def _dry(
