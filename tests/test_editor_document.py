@@ -140,6 +140,19 @@ def test_ten_thousand_steps_are_all_taken_back_and_stay_small():
     assert len(doc.steps) == MOST_STEPS
 
 
+def test_steps_of_huge_models_take_no_more_than_a_budget(monkeypatch):
+    monkeypatch.setattr("weather_ecs.editor.history.MOST_BYTES", 200_000)
+    doc = Document(CloudFile((model("huge", 4096),)))  # 32 KiB of references alone
+    for number in range(20):
+        doc.apply("Name", changes.rename_model(doc.content, 0, f"huge {number}"))
+    assert 3 <= len(doc.steps) <= 6
+    assert doc.undo() and doc.content.models[0].name == "huge 18"
+    assert doc.redo() and doc.content.models[0].name == "huge 19"
+    monkeypatch.setattr("weather_ecs.editor.history.MOST_BYTES", 1)
+    doc.apply("Name", changes.rename_model(doc.content, 0, "last"))
+    assert doc.steps == ("Name",) and doc.undo()  # the last one is kept whatever it takes
+
+
 def test_a_saved_state_is_clean_again_after_undo_and_redo():
     doc = document()
     set_opacity(doc, 0.5)

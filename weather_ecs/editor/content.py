@@ -159,3 +159,21 @@ def _layer(layer: SkyLayer, old: str, new: str | None) -> SkyLayer:
 
 def _name(model: CloudModel | str | None) -> str | None:
     return model.name if isinstance(model, CloudModel) else model
+
+
+def weight(before: CloudFile, after: CloudFile) -> int:
+    """Bytes, about, that a content has which another does not share with it."""
+    total = 500
+    for field in LISTS:
+        old, new = getattr(before, field), getattr(after, field)
+        if new is not old:
+            known = set(map(id, old))
+            total += 8 * len(new)
+            total += sum(_bytes(item) for item in new if id(item) not in known)
+    return total
+
+
+def _bytes(item: Any) -> int:
+    """Of a component: its fields, and the lists in it, whose items are shared as a rule."""
+    lists = getattr(item, "seeds", None) or getattr(item, "skies", None) or ()
+    return 600 + 8 * len(lists)

@@ -28,7 +28,7 @@ from collections.abc import Callable, Hashable
 from pathlib import Path
 
 from weather_ecs import CloudFile
-from weather_ecs.editor.content import check
+from weather_ecs.editor.content import check, weight
 from weather_ecs.editor.history import History
 from weather_ecs.errors import InvalidValueError
 
@@ -43,7 +43,9 @@ class Document:
     """
 
     def __init__(self, content: Content | None = None, path: Path | None = None) -> None:
-        self._history: History[Content] = History(Content() if content is None else content)
+        self._history: History[Content] = History(
+            Content() if content is None else content, weigh=weight
+        )
         self._saved: Content | None = self._history.state
         self._revision = 0
         self._generation = 0
