@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
@@ -17,6 +18,7 @@ from demo_game.place.mesh import Mesh
 from demo_game.render import Environment, SceneRenderer, geometry, programs
 from demo_game.render.frame_block import FRAME_DTYPE, as_matrix
 from demo_game.render.shadows import HIGH, LOW, light_matrix
+from demo_game.render.sky_dome import GLARE, glare_frame
 from weather_ecs.errors import InvalidValueError
 
 SIZE = (160, 90)
@@ -319,3 +321,29 @@ def test_leaves_keep_their_cover_in_every_level() -> None:
         height, width = level.shape[:2]
         u, v = int(SOLID[0] * width), int(SOLID[1] * height)
         assert level[v, u, 1] == 255
+
+
+def test_what_is_near_the_sun_is_in_its_frame() -> None:
+    """Of a direction within the glare, seen in the picture, there is no doubt."""
+    rng = np.random.default_rng(4)
+    projection = perspective()
+    whole = none = 0
+    for _ in range(300):
+        view = look((0.0, 0.0, 0.0), tuple(rng.normal(size=3)))
+        sun = rng.normal(size=3)
+        sun /= np.linalg.norm(sun)
+        frame = glare_frame(projection @ view, sun)
+        ways = rng.normal(size=(4000, 3))
+        ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+        ways = ways[ways @ sun > math.cos(math.radians(GLARE))]
+        x, y, _, w = projection @ view @ np.column_stack([ways, np.ones(len(ways))]).T
+        seen = (w > 0.0) & (np.abs(x) < w) & (np.abs(y) < w)
+        x, y = (x / np.where(seen, w, 1.0))[seen], (y / np.where(seen, w, 1.0))[seen]
+        if frame is None:
+            none += 1
+            assert not len(x)
+            continue
+        left, bottom, right, top = frame
+        whole += frame == (-1.0, -1.0, 1.0, 1.0)
+        assert ((x >= left) & (x <= right) & (y >= bottom) & (y <= top)).all()
+    assert none > 50 and whole < 150

@@ -121,7 +121,7 @@ class SceneRenderer:
         target.clear(0.0, 0.0, 0.0, 1.0, viewport=viewport)
         self._draw_solid(planes, camera, environment)
         if environment.draws_sky:
-            self._sky.draw(v, p)
+            self._sky.draw(v, p, sun)
         self._draw_blended(target, v, planes, camera, environment.ripples)
 
     def _choose(self, defines: tuple[str, ...]) -> list[moderngl.Program]:
@@ -146,7 +146,7 @@ class SceneRenderer:
 
     def _light_up(self, lit: list[moderngl.Program], air: Air | None) -> None:
         """Let lightning light everything; when it is over, nothing reads the weather's block."""
-        for program in (*lit, self._sky.program) if air is not None or self._flashes else ():
+        for program in (*lit, *self._sky.programs) if air is not None or self._flashes else ():
             if air is not None:
                 air.use(program)
             else:

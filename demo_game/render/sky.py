@@ -1,4 +1,7 @@
-"""The sky: painted into a map a few rows a frame, shown by blending the last two maps."""
+"""The sky: painted into a map a few rows a frame, shown by blending the last two maps.
+
+On a dome, whose corners read the maps; pixel for pixel only round the sun.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ from numpy.typing import NDArray
 from .environment import Environment
 from .frame_block import FrameBlock
 from .programs import compile_program, release_all, scissor, set_matrix, set_uniforms
+from .sky_dome import dome, glare_frame
 
 SKY_UNIT = 12  # of the weather's map
 JUMP = 25.0  # m the camera moves in one map's time that calls for a fresh one at once
@@ -29,23 +33,28 @@ class Sky:
         self._targets = [ctx.framebuffer([texture]) for texture in self.maps]
         self._bake = compile_program(ctx, "sky_bake.vert", "sky_bake.frag")
         self._show = compile_program(ctx, "sky.vert", "sky.frag")
-        block.attach(self._bake, self._show)
+        self._far = compile_program(ctx, "sky_dome.vert", "sky_dome.frag")
+        block.attach(self._bake, self._show, self._far)
         block.attach(self._bake, name="WeatherSkyLight")
         set_uniforms(self._bake, weather_sky_map=SKY_UNIT)
-        block.attach(self._show, name="WeatherAir")
+        for program in self.programs:
+            block.attach(program, name="WeatherAir")
         self._quad = ctx.buffer(np.array([-1, -1, 3, -1, -1, 3], "f4"))
         self._grid = ctx.buffer(_grid())
         shape = [(self._quad, "2f4", "in_position")]
         self._bake_array = ctx.vertex_array(self._bake, shape)
         self._show_array = ctx.vertex_array(self._show, [(self._grid, "2f4", "in_position")])
+        self._dome = [ctx.buffer(part.tobytes()) for part in dome()]
+        far = [(self._dome[0], "3f4", "in_direction")]
+        self._far_array = ctx.vertex_array(self._far, far, self._dome[1])
         self._row = 0
         self._painted: NDArray | None = None  # state of the map now shown
         self._state: NDArray = np.zeros(0)
 
     @property
-    def program(self) -> moderngl.Program:
-        """What shows the map."""
-        return self._show
+    def programs(self) -> tuple[moderngl.Program, ...]:
+        """What show the map."""
+        return self._show, self._far
 
     @property
     def map(self) -> moderngl.Texture:
@@ -81,22 +90,28 @@ class Sky:
         self._bake_array.render()
         scissor(framebuffer, None)
 
-    def draw(self, view: NDArray, projection: NDArray) -> None:
-        """Fill what nothing has covered; depth test on, at the far end."""
+    def draw(self, view: NDArray, projection: NDArray, sun: NDArray) -> None:
+        """Fill what nothing has covered; depth test on, at the far end. sun: unit direction."""
         turn = view.copy()
         turn[:3, 3] = 0.0
-        show = self._show
-        set_matrix(show, "to_world", np.linalg.inv(projection @ turn))
-        show["share"] = self._row / self.size
+        to_clip = projection @ turn
+        set_matrix(self._far, "to_clip", to_clip)
         self.maps[0].use(0)
         self.maps[1].use(1)
-        show["sky_before"], show["sky_after"] = 0, 1
-        self._show_array.render()
+        for program in self.programs:
+            set_uniforms(program, share=self._row / self.size, sky_before=0, sky_after=1)
+        self._far_array.render()
+        near = glare_frame(to_clip, sun)
+        if near is not None:
+            set_matrix(self._show, "to_world", np.linalg.inv(to_clip))
+            set_uniforms(self._show, part=near)
+            self._show_array.render()
 
     def release(self) -> None:
         """Give everything back."""
-        release_all((self._show_array, self._bake_array, self._quad, self._grid))
-        release_all((self._show, self._bake))
+        release_all((self._far_array, self._show_array, self._bake_array))
+        release_all((*self._dome, self._quad, self._grid))
+        release_all((*self.programs, self._bake))
         release_all(self._targets)
         release_all(self.maps)
 
