@@ -338,9 +338,14 @@ def test_a_file_that_is_gone_is_written_again(files, path):
     news = files.follow(document)
     assert news is not None and news.bad and "gone" in news.text
     assert files.follow(document) is None  # told once
-    assert document.dirty
+    assert document.dirty and not document.edited
     files.save(document)
     assert path.read_text() == WRITTEN and not document.dirty
+    path.unlink()
+    files.follow(document)
+    path.write_text(WRITTEN)
+    files.follow(document)
+    assert not document.dirty  # it is back as it was
 
 
 def test_a_change_on_disk_is_taken_and_can_be_undone(files, path):
@@ -378,8 +383,8 @@ def test_a_broken_state_on_disk_keeps_what_there_was(files, path):
     with pytest.raises(ChangedOnDiskError):
         files.save(document)
     path.write_text(WRITTEN.replace("120.5", "8"))
-    files.follow(document)
-    files.reload(document)
+    news = files.follow(document)  # it is good again, and nothing was edited here
+    assert news is not None and not news.bad and not document.dirty
     assert document.content.climate is not None and document.content.climate.duration == 8.0
 
 

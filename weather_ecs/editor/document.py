@@ -74,8 +74,13 @@ class Document:
 
     @property
     def dirty(self) -> bool:
-        """Whether there is something that is not saved."""
+        """Whether there is something that is not saved: edited, or its file is gone or bad."""
         return self._history.state is not self._saved
+
+    @property
+    def edited(self) -> bool:
+        """Whether it is another than when its file was read or written."""
+        return self._history.state is not self.saved_content
 
     @property
     def name(self) -> str:

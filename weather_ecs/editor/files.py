@@ -132,7 +132,7 @@ class Files:
         if found is OnDisk.GONE:
             document.mark_unsaved()
             return News(f"{document.path} is gone; saving writes it again", bad=True)
-        if document.dirty:
+        if document.edited:
             return News(f"{document.name} was changed on disk, and here: reload or save?", bad=True)
         try:
             self.reload(document)
@@ -156,6 +156,8 @@ class Files:
             same = False
         if same:
             self._stamp = stamp
+            if document.dirty and not document.edited:  # it was gone or bad, and is back
+                document.mark_saved(document.path, document.text)
         return OnDisk.SAME if same else OnDisk.CHANGED
 
     def _noticed(self, document: Document, stamp: tuple[int, ...] | None = None) -> None:

@@ -90,13 +90,13 @@ class Session:
 
     def look_at_disk(self) -> None:
         """Once a frame: what others have done to the file."""
-        unsaved = self.document.dirty
+        edited = self.document.edited
         news = self.files.follow(self.document)
         if news is None:
             return
         self.shared.say(news.text, bad=news.bad)
         path = self.document.path
-        self.changed_outside = bool(news.bad and unsaved and path is not None and path.is_file())
+        self.changed_outside = bool(news.bad and edited and path is not None and path.is_file())
 
     # How
 
