@@ -233,3 +233,41 @@ def test_flakes_are_light_before_the_dark_and_dark_before_the_light(
         # Flakes hide what is behind them: the two pictures are closest where they are.
         hidden = 1.0 - (light - dark) / 0.95
         assert hidden.max() > 0.5 and np.median(hidden) < 0.2
+
+
+@pytest.mark.usefixtures("world", "air")
+def test_flakes_of_a_few_pixels_show_as_much_without_their_pictures(ctx: moderngl.Context) -> None:
+    """`compute` draws them as discs, `feedback` draws all with their pictures."""
+    if not probe(ctx).compute:
+        pytest.skip("no compute shaders here")
+    target = ctx.simple_framebuffer((960, 540))
+    target.use()
+    added = {}
+    for backend in ("compute", "feedback"):
+        with Weather(context=ctx, backend=backend, quality="medium", seed=3) as weather:
+            area = esper.create_entity(RainArea((0, 0), (200, 200), 4.0))
+            look = esper.create_entity(SnowFlakes(veil=0.0, brightness=1.0))
+            watch(weather, 0.5)
+            found = []
+            for _ in range(3):
+                watch(weather, 0.1)
+                target.clear(0.05, 0.05, 0.05, 1.0)
+                weather.draw(look_from((0, 1.7, 0), 0.0), perspective())
+                found.append(np.frombuffer(target.read(components=3), np.uint8).mean() / 255.0)
+            added[backend] = np.mean(found) - 0.05
+            if backend == "compute":
+                (drops,) = weather._renderer.rain.sets(0).values()
+                assert drops.streaks is not None
+                commands = np.frombuffer(drops.streaks._commands.read(), np.uint32).reshape(
+                    2, -1, 5
+                )
+                near, far = commands[..., 0].sum(axis=1).tolist()
+                assert 0 < near < far < near + far < drops.alive
+                for (n, _, first, *_), (m, _, start, *_) in commands.transpose(1, 0, 2).tolist():
+                    assert first + n <= start and start + m <= drops.capacity
+            esper.delete_entity(area, immediate=True)
+            esper.delete_entity(look, immediate=True)
+    assert added["compute"] == pytest.approx(added["feedback"], rel=0.05)
+    assert added["compute"] > 0.005
+    for thing in (*target.color_attachments, target.depth_attachment, target):
+        thing.release()

@@ -13,9 +13,11 @@ from weather_ecs.gpu.flake_blocks import SNOW as SNOW_BLOCK
 from weather_ecs.gpu.flake_blocks import fill_snow
 from weather_ecs.gpu.flake_texture import flake_texture
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.gpu.streak_list import CULL
 
 STREAK = ProgramKey(vertex="streak.vert", geometry="streak.geom", fragment="streak.frag")
 FLAKE = ProgramKey(vertex="flake.vert", geometry="flake.geom", fragment="flake.frag")
+FAR_FLAKE = replace(FLAKE, defines=("FAR",))
 COMPUTE = ProgramKey(compute="rain_step.comp")
 FEEDBACK = ProgramKey(vertex="rain_step.vert", varyings=("out_position", "out_velocity"))
 SHELTER_UNIT = 1
@@ -43,6 +45,9 @@ class KindPrograms:
                     program["shelter_map"] = SHELTER_UNIT
                 self.steps[step_name(sheltered, steady)] = program
         self.draw = shaders.program(FLAKE if kind == SNOW else STREAK)
+        # With lists, flakes of a few pixels are drawn without pictures.
+        self.cull: Any = shaders.program(replace(CULL, defines=defines)) if compute else None
+        self.far = shaders.program(FAR_FLAKE) if compute and kind == SNOW else None
         # Those that read drops as vertices, by name.
         self.readers: dict[str, moderngl.Program] = {} if compute else {"streak": self.draw}
         if not compute:

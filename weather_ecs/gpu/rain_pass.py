@@ -16,7 +16,7 @@ from weather_ecs.gpu.kind_programs import SHELTER_UNIT as SHELTER_UNIT
 from weather_ecs.gpu.kind_programs import KindPrograms, step_name
 from weather_ecs.gpu.rain_blocks import RAIN_DRAW, RAIN_STEP
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
-from weather_ecs.gpu.streak_list import CULL, StreakList
+from weather_ecs.gpu.streak_list import StreakList
 
 GROUP = 128  # drops in a work group; also in rain_step.comp
 SMALLEST_LIST, LARGEST_LIST = 4096, 16_384  # impacts; every reader goes over the whole list
@@ -70,7 +70,6 @@ class RainPass:
         if self._find is not None:
             self._find["shelter_map"] = SHELTER_UNIT
         self._order = ComputeOrder(ctx)
-        self._cull = shaders.program(CULL) if self._lists else None
         self._step_block = BlockBuffer(ctx, RAIN_STEP)
         self._air = AirBlock(ctx)
         self._steady = False  # the air of this draw
@@ -205,12 +204,12 @@ class RainPass:
             kind = self._kind(container.kind)
             kind.use(container, view, drawing=True)
             count = min(drops_used(container, drops), drops.alive)
-            if self._cull is None:
+            if kind.cull is None:
                 drops.array("streak").render(moderngl.POINTS, vertices=count)
                 continue
             if drops.streaks is None:
-                drops.streaks = StreakList(self._ctx, drops, kind.draw)
-            drops.streaks.draw(self._cull, count, self._order)
+                drops.streaks = StreakList(self._ctx, drops, kind.draw, kind.far)
+            drops.streaks.draw(kind.cull, count, self._order)
 
     def fill_container(self, container: ContainerData, view: ViewData) -> None:
         """Upload the block RainDraw of one container, unless it is the one that is there."""

@@ -15,7 +15,7 @@ in vec4 in_birth;
 out vec4 vs_head;   // clip space
 out vec4 vs_path;   // pixels: way during the exposure, radius; layer. Radius 0: nothing to draw
 out vec4 vs_color;  // encoded, with opacity
-out vec4 vs_turn;   // cosine and sine of the turn in the picture's plane, 1 / tilt, bias of level
+out vec4 vs_turn;   // cosine and sine of the turn in the picture's plane, tilt, level
 
 const float SMALLEST = 1.7;  // pixels, diameter below which a flake gets fainter instead
 const float PICTURE = 64.0;  // texels on a side
@@ -27,19 +27,31 @@ const ivec2 NEEDLES = ivec2(12, 6);
 const ivec2 STARS = ivec2(18, 28);
 const ivec2 CLUMPS = ivec2(46, 16);
 const ivec2 WET = ivec2(62, 6);
+// What of its disc a picture of each kind comes to that is a few pixels large.
+const float[5] WHITE = float[5](0.98, 0.5, 0.74, 0.82, 0.9);
 
-int flake_layer(uint word, float diameter, int habit, float wet)
+// Layer, and number of the kind.
+ivec2 flake_layer(uint word, float diameter, int habit, float wet)
 {
     // Which of the pictures, and whether it looks like a clump or has melted, by other bits each.
     uint pick = hash_word(word);
     float u = float(pick & 1023u) * (1.0 / 1024.0);
     float chance = float((pick >> 10u) & 1023u) * (1.0 / 1024.0);
     float melts = float(pick >> 22u) * (1.0 / 1024.0);
-    ivec2 kind = habit == 0 ? PLATES : (habit == 1 ? NEEDLES : STARS);
-    if (chance < flake_clumped(diameter)) kind = CLUMPS;
-    if (melts < wet * 1.6) kind = WET;
-    if (snow_motion.w == LIU_TONG) kind = STARS;
-    return kind.x + int(u * float(kind.y));
+    int kind = habit;
+    if (chance < flake_clumped(diameter)) kind = 3;
+    if (melts < wet * 1.6) kind = 4;
+    if (snow_motion.w == LIU_TONG) kind = 2;
+    ivec2 of = kind == 0 ? PLATES : (kind == 1 ? NEEDLES : (kind == 2 ? STARS
+             : (kind == 3 ? CLUMPS : WET)));
+    return ivec2(of.x + int(u * float(of.y)), kind);
+}
+
+// Cosine and sine of so many turns, about: of parabolas, which is enough to turn a flake.
+vec2 turned(float turns)
+{
+    vec2 z = fract(vec2(turns + 0.25, turns)) * 2.0 - 1.0;
+    return z * (4.0 * abs(z) - 4.0);
 }
 
 void main()
@@ -91,14 +103,24 @@ void main()
     opacity *= smoothstep(0.2, 0.7, head.w);
     if (opacity < 0.004) return;
 
-    float turn = float(word >> 26u) * 0.0982 + view_time.x * (float((word >> 3u) & 31u) - 15.5) * 0.06;
-    float swing = fract((30.0 + float((word >> 8u) & 63u)) * snow_motion.y * 0.5);
-    float tilt = mix(0.62 + 0.38 * cos(6.2831853 * swing), 1.0, flake_clumped(diameter) * 0.7);
+    float swing = (30.0 + float((word >> 8u) & 63u)) * snow_motion.y * 0.5;
+    float tilt = mix(0.62 + 0.38 * turned(swing).x, 1.0, flake_clumped(diameter) * 0.7);
     tilt = max(tilt, 0.3);
     vs_head = head;
-    vs_path = vec4(way, 0.5 * shown, flake_layer(word, diameter, habit, drop_law.z));
-    vs_turn = vec4(cos(turn), sin(turn), 1.0 / tilt,
-                   log2(PICTURE / shown) + log2(1.0 + (soft + 0.7 * smear) / max(pixels, 1.0)));
+    ivec2 layer = flake_layer(word, diameter, habit, drop_law.z);
+    vs_path = vec4(way, 0.5 * shown, layer.x);
+    float turn = float(word >> 26u) * 0.015625 + view_time.x * (float((word >> 3u) & 31u) - 15.5) * 0.0095;
+    vs_turn = vec4(normalize(turned(turn)), tilt, 0.0);
+#ifdef FAR
+    // The smallest have no shape: discs of what one sees of them.
+    float flat_by = mix(1.0, tilt, clamp(0.5 * shown - 1.0, 0.0, 1.0));
+    float wide = max(shown * sqrt(tilt / flat_by), SMALLEST);
+    vs_path.z = 0.5 * wide;
+    vs_turn.z = flat_by;
+    opacity *= WHITE[layer.y] * tilt * shown * shown / (flat_by * wide * wide);
+#else
+    vs_turn.w = log2(PICTURE / shown) + log2(1.0 + (soft + 0.7 * smear) / max(pixels, 1.0));
+#endif
 
     vec3 ray = p - camera_position.xyz;
     float away = length(ray);

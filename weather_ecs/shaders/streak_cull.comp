@@ -1,6 +1,7 @@
 // Lists the drops in view, in their own order, so that only these are drawn and every run draws the
 // same picture. A work group takes a chunk of 4096 drops, a thread 32 in a row; each chunk has its
-// own stretch of the list and its own draw command.
+// own stretch of the list and its own draw command. Of snow, flakes of a few pixels have commands of
+// their own, behind all the others, and stand at the end of the stretch.
 layout(local_size_x = 128) in;
 #include "landed.glsl"
 #include <block:RainView>
@@ -13,7 +14,33 @@ struct DrawElements { uint count; uint instances; uint first; int base_vertex; u
 layout(std430, binding = 3) writeonly buffer Commands { DrawElements commands[]; };
 
 const uint ROW = 32u;
-shared uint found[128];
+shared uint found[128];  // by thread; the small ones in the upper half of the word
+
+#ifdef SNOW
+#include "snow_law.glsl"
+#include "container.glsl"
+#include <block:RainDraw>
+
+layout(std430, binding = 0) readonly buffer Births { vec4 births[]; };
+
+const float FAR_PIXELS = 7.0;  // diameter up to which a flake's picture does not show
+const float FOCUS = 6.0;       // m; also in flake.vert
+
+// Whether a flake is small, about as flake.vert has it.
+bool is_small(uint id)
+{
+    uint k = id * 6u;
+    vec3 p = vec3(drops[k], drops[k + 1u], drops[k + 2u]);
+    float deep = dot(p - camera_position.xyz, camera_forward.xyz);
+    float d = min(length(to_container(p.xz, container_axis, container_shape.xy)), 1.0);
+    float diameter = flake_diameter(births[id].w, drop_law);
+    float size = flake_size(diameter, flake_habit(flake_word(id), drop_law), drop_law);
+    size *= 1e-3 * drop_look.z * drop_look.y * (1.0 + (drop_look.x - 1.0) * d * d);
+    if (snow_motion.w == LIU_TONG) size = 1.0;
+    size += snow_look.x * max(1.0 - deep / FOCUS, 0.0);
+    return size * camera_position.w < FAR_PIXELS * deep;
+}
+#endif
 
 bool in_view(uint id)
 {
@@ -36,9 +63,15 @@ void main()
     uint thread = gl_LocalInvocationID.x;
     uint first = gl_GlobalInvocationID.x * ROW;
     uint mask = 0u;
+    uint small = 0u;
     for (uint i = 0u; i < ROW; ++i)
         if (first + i < streak_count && in_view(first + i)) mask |= 1u << i;
-    found[thread] = bitCount(mask);
+#ifdef SNOW
+    for (uint rest = mask; rest != 0u; rest &= rest - 1u)
+        if (is_small(first + uint(findLSB(rest)))) small |= rest & (~rest + 1u);
+    mask ^= small;
+#endif
+    found[thread] = bitCount(mask) | bitCount(small) << 16u;
     barrier();
     uint at = 0u;
     uint total = 0u;
@@ -47,7 +80,17 @@ void main()
         total += found[i];
     }
     uint start = gl_WorkGroupID.x * 128u * ROW;
-    for (uint rest = mask, to = start + at; rest != 0u; rest &= rest - 1u)
+    for (uint rest = mask, to = start + (at & 0xFFFFu); rest != 0u; rest &= rest - 1u)
         seen[to++] = first + uint(findLSB(rest));
-    if (thread == 0u) commands[gl_WorkGroupID.x] = DrawElements(total, 1u, start, 0, 0u);
+    if (thread == 0u)
+        commands[gl_WorkGroupID.x] = DrawElements(total & 0xFFFFu, 1u, start, 0, 0u);
+#ifdef SNOW
+    // Of the last chunk the list may be short.
+    uint end = min(start + 128u * ROW, uint(seen.length())) - (total >> 16u);
+    for (uint rest = small, to = end + (at >> 16u); rest != 0u; rest &= rest - 1u)
+        seen[to++] = first + uint(findLSB(rest));
+    if (thread == 0u)
+        commands[gl_NumWorkGroups.x + gl_WorkGroupID.x]
+            = DrawElements(total >> 16u, 1u, end, 0, 0u);
+#endif
 }
