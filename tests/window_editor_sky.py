@@ -57,6 +57,13 @@ def make_sky(window: EditorWindow, hands: Hands) -> None:
     hands.click("cumulus")
     sky = document.content.layers[0].skies[0]
     assert sky.models == ("cumulus",) and sky.count == 20, sky
+    steps = len(document.steps)
+    hands.click("##add")
+    hands.until(lambda: hands.shows("stratus"), "the list of models")
+    hands.click("stratus")
+    hands.click("model 1/x")
+    assert document.content.layers[0].skies[0].models == ("cumulus",)
+    assert len(document.steps) == steps + 2  # each by itself
     hands.click("New##sky")
     assert [sky.state for sky in document.content.layers[0].skies] == [0.0, 1.0]
 

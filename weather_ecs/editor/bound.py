@@ -106,7 +106,8 @@ def take(bound: Bound, name: str, label: str, changed: bool, value: Any) -> None
     """Put what the widget just made into the document; a drag that ends is one step of undo."""
     if changed:
         bound.set(name, label, **{name: value})
-    if imgui.is_item_deactivated():
+    # A choice from a list, or a tick, is a gesture of its own; a drag lasts as long as it is held.
+    if imgui.is_item_deactivated() or (changed and not imgui.is_item_active()):
         bound.document.end_gesture()
 
 

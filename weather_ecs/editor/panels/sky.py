@@ -105,6 +105,7 @@ def _draw_models(bound: Bound, sky: Sky, document: Document) -> None:
         imgui.push_id(f"model {k}")
         if imgui.button("x"):
             bound.set("models", "remove model", **removed(sky, k))
+            bound.document.end_gesture()
         tip_of_last("Take the model out of this sky")
         imgui.same_line(0.0, 6.0)
         imgui.align_text_to_frame_padding()
@@ -131,6 +132,7 @@ def _draw_models(bound: Bound, sky: Sky, document: Document) -> None:
         for name in dict.fromkeys(free):
             if imgui.selectable(name, False)[0]:
                 bound.set("models", "add model", **added(sky, name))
+                bound.document.end_gesture()
         imgui.end_combo()
     tip_of_last("Models of this file first, then those of the package")
 
