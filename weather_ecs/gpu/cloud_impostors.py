@@ -178,7 +178,7 @@ class Impostors:
         turned = np.linalg.norm(way - kept["way"], axis=1)
         error = turned * size / PIXELS_OFF
         grown = size / np.maximum(kept["pixels"], 1e-3)
-        wanted = np.clip(kept["need"] * grown, Atlas.SMALLEST, largest)
+        wanted = np.clip(ENOUGH * kept["need"] * grown, Atlas.SMALLEST, largest)
         have = np.maximum(kept["tile"][:, 2], 1)
         error = np.maximum(error, np.log2(np.maximum(wanted / have, 1e-6)) / 0.35)
         error = np.maximum(error, -np.log2(np.maximum(wanted / have, 1e-6)) / 2.2)
