@@ -212,6 +212,19 @@ def test_an_impostor_is_taken_again_when_view_light_or_cloud_change(stage: Cloud
     assert settled(shrunk, position=(900.0, 2.0, 0.0)) >= 1
 
 
+def test_under_a_still_sky_no_picture_is_taken_again(stage: CloudStage) -> None:
+    """Clouds of every size in the picture are as large in it as they should be."""
+    data = shape(centers=THREE)
+    far = np.geomspace(700.0, 14_000.0, 40)
+    places = [(0.4 * z * np.sin(7.0 * z), 0.2 * z, -z) for z in far.tolist()]
+    frame = sky_frame(clouds(*[{"position": place} for place in places]), data)
+    for _ in range(60):
+        stage.draw(frame, pitch=0.2)
+    for _ in range(5):
+        stage.draw(frame, pitch=0.2)
+        assert stage.renderer.stats["impostors_refreshed"] == 0
+
+
 def test_new_pictures_and_new_light_come_in_without_a_jump(stage: CloudStage) -> None:
     rows = clouds({"position": (0.0, 200.0, -900.0)})
     data = shape(centers=THREE, absorbed=0.0)
