@@ -55,7 +55,8 @@ def _options(shared: Shared) -> None:
 
 
 def _counts(posed: Posed) -> None:
-    text = f"{len(posed.shape.centers)} seeds  {len(posed.shape.billboards)} billboards"
+    seeds = len(posed.shape.centers)
+    text = f"{seeds} seed{'s' * (seeds != 1)}  {len(posed.shape.billboards)} billboards"
     wide = imgui.calc_text_size(text).x
     imgui.same_line()
     left = imgui.get_content_region_avail().x - wide

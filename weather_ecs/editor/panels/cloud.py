@@ -146,7 +146,9 @@ def new_model_menu(document: Document, shared: Shared) -> None:
     """Items of a menu: what a new model can begin as."""
     if imgui.menu_item("One seed", "", False)[0]:
         model = CloudModel("cloud", (CloudSeed((0.0, 150.0, 0.0), 500.0, 300.0, 500.0),))
-        model = replace(model, size_min=180.0, size_max=320.0, flatness=1.0)
+        model = replace(
+            model, billboards_min=8, billboards_max=12, size_min=220.0, size_max=360.0, flatness=1.0
+        )
         add_model(document, shared, model, "New model")
     imgui.separator_text("Like the package's")
     for name in presets.CLOUD_MODELS:
