@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from imgui_bundle import imgui
@@ -9,10 +10,10 @@ from imgui_bundle import imgui
 from weather_ecs.editor import theme, view
 from weather_ecs.editor.bands import BANDS, HIGHEST, LEVELS, REGIONS, describe
 from weather_ecs.editor.content import with_item
-from weather_ecs.editor.document import Document
+from weather_ecs.editor.document import Content, Document
 from weather_ecs.editor.map_view import LAYERS
 from weather_ecs.editor.shared import Shared
-from weather_ecs.editor.studio import studio_of
+from weather_ecs.editor.studio import Studio, studio_of
 
 TOP = 19_000.0  # m of the axis
 GRASP = 8.0  # pixels from a layer's line at which the mouse takes it
@@ -83,7 +84,7 @@ class HeightsView:
         document: Document,
         shared: Shared,
         left: float,
-        level: object,
+        level: Callable[[float], float],
         bottom: float,
         top: float,
     ) -> None:
@@ -91,7 +92,7 @@ class HeightsView:
         layers = document.content.layers
         mouse = imgui.get_io().mouse_pos
         if imgui.is_item_activated() and mouse.x >= left and layers:
-            away = [abs(level(layer.base) - mouse.y) for layer in layers]  # type: ignore[operator]
+            away = [abs(level(layer.base) - mouse.y) for layer in layers]
             nearest = min(range(len(layers)), key=away.__getitem__)
             if away[nearest] <= GRASP:
                 self._held = shared.selection.layer = nearest
@@ -100,11 +101,11 @@ class HeightsView:
             height = (bottom - mouse.y) / max(bottom - top, 1.0) * TOP
             base = min(max(round(height / STEP) * STEP, 0.0), HIGHEST)
 
-            def make() -> object:
+            def make() -> Content:
                 layer = replace(document.content.layers[held], base=base)
                 return with_item(document.content, "layers", held, layer)
 
-            document.try_apply("Layer: base", make, merge=("heights", held))  # type: ignore[arg-type]
+            document.try_apply("Layer: base", make, merge=("heights", held))
         if imgui.is_item_deactivated():
             if held is not None:
                 document.end_gesture()
@@ -115,23 +116,28 @@ class HeightsView:
                 "Drag a layer's line to move its base; click a region's name to go by it."
             )
 
-    def _choose_region(self, studio: object, left: float, column: float, rect: view.Rect) -> None:
+    def _choose_region(self, studio: Studio, left: float, column: float, rect: view.Rect) -> None:
         mouse = imgui.get_io().mouse_pos
         if not (imgui.is_item_clicked() and mouse.y < rect.y + 28.0):
             return
         k = int((mouse.x - left) // column)
         if 0 <= k < len(REGIONS):
-            studio.region = REGIONS[k]  # type: ignore[attr-defined]
+            studio.region = REGIONS[k]
 
 
 def _draw_region(
-    lines: imgui.ImDrawList, region: str, x: float, width: float, level: object, chosen: bool
+    lines: imgui.ImDrawList,
+    region: str,
+    x: float,
+    width: float,
+    level: Callable[[float], float],
+    chosen: bool,
 ) -> None:
     """One region's three bands side by side: middle and high overlap."""
     title = region.capitalize()
     size = imgui.calc_text_size(title)
     middle = x + 0.5 * width
-    y = level(TOP) - 24.0  # type: ignore[operator]
+    y = level(TOP) - 24.0
     if chosen:
         plate = _V(middle - 0.5 * size.x - 8.0, y - 2.0), _V(middle + 0.5 * size.x + 8.0, y + 18.0)
         lines.add_rect_filled(*plate, theme.packed(theme.ACCENT_LOW), 4.0)
@@ -141,8 +147,8 @@ def _draw_region(
     for k, name in enumerate(LEVELS):
         low, high = BANDS[region][name]
         left = x + 12.0 + k * bar
-        corner = _V(left + 2.0, level(high))  # type: ignore[operator]
-        far = _V(left + bar - 2.0, level(low))  # type: ignore[operator]
+        corner = _V(left + 2.0, level(high))
+        far = _V(left + bar - 2.0, level(low))
         red, green, blue, alpha = _COLORS[name]
         shade = theme.packed((red, green, blue, alpha if chosen else 0.5 * alpha))
         lines.add_rect_filled(corner, far, shade, 3.0)
