@@ -55,6 +55,7 @@ def run(quick: bool) -> Result:
 
     if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
         pyglet.options.headless = True
+        os.environ.setdefault("PYOPENGL_PLATFORM", "egl")
     pyglet.options.debug_gl = False
     from weather_ecs.editor.app import EditorWindow
 

@@ -19,6 +19,7 @@ from weather_ecs.editor.document import Content, Document
 from weather_ecs.editor.fields import info
 from weather_ecs.editor.map_frame import dragged
 from weather_ecs.editor.panels.lists import buttons
+from weather_ecs.editor.rows import section as heading
 from weather_ecs.editor.shared import Shared
 from weather_ecs.editor.studio import QUALITY, studio_of
 from weather_ecs.editor.view_bar import tip_of_last
@@ -97,8 +98,7 @@ _PLAIN = presets.PRESETS.items()
 
 def section(title: str, opened: bool) -> bool:
     """A part of the panel that can be folded."""
-    flags = imgui.TreeNodeFlags_.default_open if opened else 0
-    return bool(imgui.collapsing_header(title, flags))
+    return heading(title, opened=opened)
 
 
 def choose(label: str, names: Any, tips: dict[str, str]) -> str:
