@@ -47,10 +47,11 @@ FLASH_TIME = 2.5  # s of weather after a strike in which its flash may go on
 STRIKE_AHEAD, SPREAD = 900.0, 0.3  # m and rad, of a strike that the player calls
 MARK, MARKS = 2.0, 60  # s, and how many of them are kept
 HEARD_FROM = 1.0  # m that the player's ears move before the weather is told
-OPENING = 0.25, 0.25  # state and cover of the sky that a game begins under, whatever it rains
+OPENING = 0.25, 0.10  # state and cover of the sky that a game begins under, whatever it rains
 TOUR_SKY = "heavy"  # preset whose sky a tour has, whatever it rains
 SKY_LEAST, SKY_SHARE = 0.02, 0.80  # cover of the sky at large: the rain brings its own clouds
 CLOUDS_FROM_TO = 700.0, 2900.0  # m, in which one comes out of them
+WHOLE_SHARE = 0.85  # of a closed whole weather, as an Atmosphere has it
 SHEET_SHARE = 0.55  # more where the cloud is one sheet
 SCENE_START = 10.0  # s into the rounds of figure and windmill at which a game begins
 COMPARED_TOURS = ("walk", "run", "crossing")
@@ -445,7 +446,8 @@ class Game:
     def _overcast(self) -> float:
         mood = self._scenery()
         share = SKY_LEAST + (SKY_SHARE + SHEET_SHARE * mood.closed) * mood.overcast
-        share = min(share, 1.0)
+        # A whole weather's clouds are all there; of a sky that they leave open little is covered.
+        share = min(share, 1.0) + mood.lent * (WHOLE_SHARE * mood.overcast**3 - min(share, 1.0))
         # Who flies up through the clouds leaves them below.
         low, high = CLOUDS_FROM_TO
         left = min(max((high - self.pose.eye[1]) / (high - low), 0.0), 1.0)
