@@ -32,6 +32,8 @@ class GroundMesh:
     indices: NDArray  # (m, 3) u4
     chunks: NDArray  # (c, 2) in full
     coarse: NDArray  # (c, 2) for the distance; the same as `chunks` where there is none
+    skirts: NDArray  # (c, 2) round a coarse chunk, for where it meets one in full
+    beside: NDArray  # (c, 4) neighbours of a chunk, itself where there is none
     low: NDArray  # (c, 3) m
     high: NDArray
 
@@ -123,13 +125,13 @@ def ground_mesh(terrain: Terrain, painted_low: NDArray, painted_high: NDArray) -
     points, normals = [near, far], [near_normals, _normals(far, np.concatenate(far_chunks))]
     chunks = near_chunks + [c + len(near) for c in far_chunks]
     count = len(near) + len(far)
-    simple: list[NDArray] = []
-    for rim, few in zip(rims, coarse, strict=True):
+    skirts: list[NDArray] = []
+    for rim in rims:
         points.append(near[rim] - (0.0, SKIRT, 0.0))
         normals.append(near_normals[rim])
         k = np.arange(len(rim) - 1)
         a, b, c, d = rim[k], rim[k + 1], count + k, count + k + 1
-        simple.append(np.concatenate([few, np.stack([a, b, c, b, d, c], 1).reshape(-1, 3)]))
+        skirts.append(np.stack([a, b, c, b, d, c], 1).reshape(-1, 3))
         count += len(rim)
     vertices = np.concatenate(points)
     x, z = vertices[:, 0], vertices[:, 2]
@@ -138,19 +140,33 @@ def ground_mesh(terrain: Terrain, painted_low: NDArray, painted_high: NDArray) -
     )
     boxes = [vertices[np.unique(c)] for c in chunks]
     whole, first = _ranges(chunks, 0)
-    less, _ = _ranges(simple, first)
+    less, first = _ranges(coarse, first)
     less = np.concatenate([less, whole[len(less) :]])
+    around, _ = _ranges(skirts, first)
+    around = np.concatenate([around, np.zeros((len(far_chunks), 2), int)])
     return GroundMesh(
         vertices.astype("f4"),
         np.concatenate(normals).astype("f4"),
         wild_color(terrain, x, z).astype("f4"),
         smoothstep(2.0, MARGIN, inside).astype("f4"),
-        np.concatenate(chunks + simple).astype("u4"),
+        np.concatenate(chunks + coarse + skirts).astype("u4"),
         whole,
         less,
+        around,
+        _beside(len(rims), -(-(len(terrain.xs) - 1) // CHUNK), len(chunks)),
         np.array([b.min(0) for b in boxes]),
         np.array([b.max(0) for b in boxes]),
     )
+
+
+def _beside(count: int, columns: int, total: int) -> NDArray:
+    """(total, 4) chunks next to each of the `count` in a grid; the others have none."""
+    grid = np.arange(count).reshape(-1, columns)
+    framed = np.pad(grid, 1, mode="edge")
+    sides = framed[1:-1, :-2], framed[1:-1, 2:], framed[:-2, 1:-1], framed[2:, 1:-1]
+    beside = np.repeat(np.arange(total)[:, None], 4, axis=1)
+    beside[:count] = np.stack([side.ravel() for side in sides], 1)
+    return beside
 
 
 def _ranges(chunks: list[NDArray], first: int) -> tuple[NDArray, int]:

@@ -49,6 +49,11 @@ class Ground:
         kinds = [(), *[("NEAR", *live, *wet) for live in ((), ("LIVE",)) for wet in ((), ("WET",))]]
         self.looks = tuple([Variants(partial(look, *kind)) for kind in kinds])
         self._chunks, self._coarse = mesh.chunks, mesh.coarse
+        self._skirts, self._beside = mesh.skirts, mesh.beside
+        # Where chunks never match: at the pond, which stays in full, and where the grid ends.
+        full = mesh.coarse[:, 1] == mesh.chunks[:, 1]
+        self._hangs = full | (mesh.beside == np.arange(len(full))[:, None]).any(axis=1)
+        self._hangs |= full[mesh.beside].any(axis=1)
         self._block, self._dry_from = block, np.zeros(len(mesh.low))
         self._low, self._high = mesh.low, mesh.high
         inside = (mesh.low[:, [0, 2]] > paint.LOW + paint.MARGIN).all(axis=1)
@@ -98,11 +103,14 @@ class Ground:
         seen = np.flatnonzero(geometry.boxes_seen(planes, self._low, self._high))
         if not len(seen):
             return
-        away = geometry.box_distance(camera, self._low[seen], self._high[seen])
+        all_away = geometry.box_distance(camera, self._low, self._high)
+        away = all_away[seen]
         near = self._painted[seen] & (away < DETAIL_REACH)
         wet, live = self._wet_chunks(environment)[seen], self._live_chunks(spheres, sun)[seen]
         kind: NDArray = np.where(near, 1 + wet + 2 * live, 0)
         fine = away < COARSE_FROM
+        # A coarse one does not meet one in full: there it hangs down at its rim.
+        meets = self._hangs[seen] | (all_away[self._beside[seen]] < COARSE_FROM).any(axis=1)
         new = (np.diff(seen, prepend=-9) != 1) | (np.diff(kind, prepend=kind[0]) != 0)
         new |= np.diff(fine, prepend=fine[0])
         starts = np.flatnonzero(new)
@@ -117,11 +125,9 @@ class Ground:
                 self._soft.use(UNITS["meadow_map"])
                 sharp = False
             array = self.looks[kind[starts[k]]].arrays[0]
-            part = ranges[starts[k] : ends[k]]
-            breaks = np.flatnonzero(part[1:, 0] != part[:-1].sum(1)) + 1
-            for piece in np.split(part, breaks):
-                first, last = piece[0, 0], piece[-1].sum()
-                array.render(vertices=int(last - first) * 3, first=int(first) * 3)
+            _render(array, ranges[starts[k] : ends[k]])
+            if not fine[starts[k]]:
+                _render(array, self._skirts[seen[starts[k] : ends[k]]][meets[starts[k] : ends[k]]])
         self._soft.clear(UNITS["meadow_map"])
         self._grain.clear(UNITS["detail_map"])
 
@@ -129,6 +135,15 @@ class Ground:
         """Give everything back."""
         samplers = self._sharp, self._soft, self._grain
         release_all((*self.looks, self._vertices, self._indices, self.map, *samplers))
+
+
+def _render(array: moderngl.VertexArray, ranges: NDArray) -> None:
+    """Draw ranges of triangles (first, count), those in one call that follow each other."""
+    breaks = np.flatnonzero(ranges[1:, 0] != ranges[:-1].sum(1)) + 1
+    for piece in np.split(ranges, breaks):
+        count = int(piece[:, 1].sum())
+        if count:
+            array.render(vertices=count * 3, first=int(piece[0, 0]) * 3)
 
 
 def _sampler(
