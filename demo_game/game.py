@@ -120,6 +120,8 @@ class Game:
         self._entities = Entities(self.place, self._mood(), self.light, SCENE_START)
         esper.create_entity(self.sky.atmosphere)
         self._scape = Cloudscape(self._scenery().state, self._entities.areas(), self._layers())
+        if metar is not None or self._has_whole_play:
+            self._scape.show(False)  # from the start, so that none of its clouds has to dissolve
         self._struck, self._strikes = -math.inf, 0
         self._snow = False, -math.inf  # whether there may be any, and when that was asked
         esper.set_handler("strike", self._on_strike)
