@@ -13,7 +13,7 @@ uniform float cloud_hazed;  // 1; 0 while an impostor is made
 uniform sampler2D scene_depth;
 uniform vec3 cloud_guard_at;  // depth by x, by y, in the middle of the picture, all -1 to 1
 
-const int LOOKS = 10;
+const int LOOKS = 6;
 
 // Whether the scene hides all of a billboard, as far as so many looks along and across it tell;
 // x, y: half of its sides.
