@@ -27,6 +27,7 @@ from weather_ecs.physics.snowfall import snowfall
 
 MAX_GAUGES = 32  # counted; the others read the areas' rates
 MAX_ROWS = 32  # containers
+STRONG = 0.5  # of the mean fall, a deviation of the air above which drops are not counted
 CATCH, OWN = 128, 32  # points; also in gauge_area.vert
 RING = 4  # frames between counting and reading; half of it until the copy is asked for
 
@@ -155,11 +156,15 @@ class GaugePass:
         area = areas[areas["key"] == container.area]
         field = RainField(area)
         full, (water, speed) = float(area["rain_rate"][0]), _landing(container, view)
+        # Strong eddies sweep down what falls faster than in still air, and the number of the drawn
+        # drops, which stays, says too much: no catch then.
+        counted = view.frame.profile.turbulence <= STRONG * speed
         radii = []
         for k, gauge in enumerate(gauges):
             share = field.rate(*gauge.position) / full
             heavier = _water_share(container, gauge.position[1])
             x, z, radius = _catch(gauge, container, speed)
+            radius *= counted
             radii.append(radius)
             self._block["gauge_place"][k] = (*gauge.position, math.sqrt(gauge.area / math.pi))
             self._block["gauge_catch"][k] = (x, z, radius, 0.0)
