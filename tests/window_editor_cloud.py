@@ -241,6 +241,13 @@ def case_trouble(folder: Path) -> None:
     hands.click("Close")
     assert document.content is kept and document.path == good
 
+    # Keys work again at once, without a click first.
+    window.dispatch_event("on_file_drop", 10, 10, [str(bad)])
+    hands.until(lambda: hands.shows("Close"), "what is wrong")
+    hands.key("Return", "F1")
+    hands.until(lambda: imgui.is_popup_open("", imgui.PopupFlags_.any_popup), "the page of keys")
+    hands.key("Escape")
+
     # The file deleted, and made a folder: the editor has what it had, and can save elsewhere.
     good.unlink()
     hands.until(lambda: window.shared.note_bad, "the note")

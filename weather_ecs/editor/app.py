@@ -143,6 +143,9 @@ class EditorWindow(pyglet.window.Window):
         self.dialogs.draw(self.session)
         self._helps = draw_help(menus, self._helps)
         if not imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
+            if not imgui.is_window_focused(imgui.FocusedFlags_.any_window):
+                # After a window that asked there may be none, and then no key means anything.
+                imgui.set_window_focus(f"{self.shared.workspace} view")
             press_keys(menus)
         self.shared.selection.clamp(self.document)
 
