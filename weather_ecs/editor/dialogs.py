@@ -76,6 +76,8 @@ def _changed(session: Session) -> None:
             session.changed_outside = False
             if pressed == "Read it again":
                 session.reload()
+            elif pressed == "Keep mine":
+                session.keep_mine()
 
 
 def _trouble(session: Session) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from weather_ecs.editor.document import Document
-from weather_ecs.editor.files import Files
+from weather_ecs.editor.files import ChangedOnDiskError, Files
 from weather_ecs.editor.shared import Shared
 from weather_ecs.errors import WeatherError
 
@@ -27,6 +27,7 @@ class Session:
         self.trouble = ""  # what went wrong, to be read
         self.wants_path: tuple[str, Callable[[Path], None], bool] | None = None
         self.changed_outside = False  # the file is another one, and so is what is here
+        self._mine = False  # and what is here is to be written over it
         self.closing = False  # the window may close
 
     # What menus call
@@ -48,15 +49,23 @@ class Session:
         if self.document.path is None:
             self.save_as(then)
         else:
-            self._write(self.document.path, then)
+            self._write(lambda: self.files.save(self.document, anyway=self._mine), then)
+
+    def keep_mine(self) -> None:
+        """What is here counts, whatever another program has written; the next save says so."""
+        self.changed_outside, self._mine = False, True
 
     def save_as(self, then: Act | None = None) -> None:
         """Ask for a path and write there."""
-        self._ask_path("Save as", lambda path: self._write(path, then), saves=True)
+        self._ask_path(
+            "Save as",
+            lambda path: self._write(lambda: self.files.save_as(self.document, path), then),
+            saves=True,
+        )
 
     def reload(self) -> None:
         """Take what the file has become."""
-        self.changed_outside = False
+        self.changed_outside = self._mine = False
         name = self.document.name
         if self._tried(lambda: self.files.reload(self.document)):
             self.shared.say(f"{name} has changed on disk and was read again")
@@ -81,7 +90,7 @@ class Session:
         """Open a file whatever is lost; one that is bad leaves everything as it is."""
         if not self._tried(lambda: self.files.open(self.document, path)):
             return False
-        self.changed_outside = False
+        self.changed_outside = self._mine = False
         self.shared.selection.clamp(self.document)
         self.shared.number = 0
         self.shared.workspace = "cloud" if self.document.content.models else "sky"
@@ -111,14 +120,19 @@ class Session:
 
     def _new(self) -> None:
         self.files.new(self.document)
-        self.changed_outside = False
+        self.changed_outside = self._mine = False
         self.shared.selection.clamp(self.document)
         self.shared.workspace = "cloud"
 
-    def _write(self, path: Path, then: Act | None) -> None:
-        if self._tried(lambda: self.files.save_as(self.document, path)):
-            self.changed_outside = False
-            self.shared.say(f"Saved {path}")
+    def _write(self, write: Act, then: Act | None) -> None:
+        try:
+            written = self._tried(write)
+        except ChangedOnDiskError:
+            self.changed_outside = True  # asks which of the two counts
+            return
+        if written:
+            self.changed_outside = self._mine = False
+            self.shared.say(f"Saved {self.document.path}")
             if then is not None:
                 then()
 
@@ -128,6 +142,8 @@ class Session:
     def _tried(self, act: Act) -> bool:
         try:
             act()
+        except ChangedOnDiskError:
+            raise
         except WeatherError as error:
             self.trouble = str(error)
         except OSError as error:
