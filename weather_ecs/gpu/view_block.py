@@ -37,7 +37,7 @@ def cloud_light(sky: SkyLight) -> NDArray:
     """The same under a thick cloud, linear RGB: from the sides, and grey from above."""
     zenith, horizon = np.array(sky.zenith_color), np.array(sky.horizon_color)
     above = 0.25 * float(zenith @ (0.2126, 0.7152, 0.0722))
-    return 0.40 * above + 0.27 * horizon + 0.12 * np.array(sky.ground_color)
+    return 0.36 * above + 0.22 * horizon + 0.10 * np.array(sky.ground_color)
 
 
 @lru_cache(maxsize=8)

@@ -15,6 +15,8 @@ from weather_ecs.systems.falls import falls, shown_distance, snow_shown_distance
 
 _SOFT_TOP = 0.25  # of the height of a cloud's base: in it the rain below becomes dense
 _RAGGED, _FAR = 0.8, 1500.0  # how uneven a shaft is; m from which on it is all of that
+_CORE = 0.02  # of a far shaft, the level of f inside which its rain is full
+_WITHIN = 0.6  # of its soft top, how far a far shaft reaches up into its cloud
 _SHEAR = 0.4  # of the wind: a cloud goes with most of it, and so does what it drops
 _SHADE_RATE = 4.0  # mm/h from which a shower has most of the shade of its cloud
 _RAIN_SPEED, _SNOW_SPEED = 6.0, 1.5  # m/s, of what shows the slant of a shaft
@@ -108,11 +110,16 @@ def _under_cloud(veil: VeilData, frame: FrameData, key: int, distance: float) ->
     far = min(max(distance / _FAR, 0.0), 1.0)
     # The look's factor stands for what a screen shows less of; a whole shaft needs none.
     look = (1.0 - veil.snow) * frame.look.veil + veil.snow * frame.flakes.veil
+    (a, b, inner), (bottom, ceiling) = veil.shape, veil.span
+    top = _SOFT_TOP * max(ceiling, 0.0)
     return replace(
         _with_rays(veil, frame, key, far),
         extinction=veil.extinction * (1.0 + far * (1.0 / max(look, 1.0) - 1.0)),
+        # From afar a shaft thins out to its sides, and begins within the cloud: no box hangs there.
+        shape=(a, b, inner + far * (min(inner, _CORE) - inner)),
+        span=(bottom, ceiling + far * _WITHIN * top),
         cloud=1.0,
-        top=_SOFT_TOP * max(veil.span[1], 0.0),
+        top=top,
     )
 
 
