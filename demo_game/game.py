@@ -505,6 +505,8 @@ class Game:
 
     def _flash_air(self) -> Air | None:
         """The weather's air while lightning may be bright, so that nobody pays for it else."""
+        if self._struck == -math.inf:
+            return None
         passed = self.weather.stats.time - self._struck
         lit = 0.0 <= passed < FLASH_TIME
         return self.weather.air(position=self.pose.eye) if lit else None
