@@ -128,8 +128,12 @@ class Session:
         try:
             written = self._tried(write)
         except ChangedOnDiskError:
-            self.changed_outside = True  # asks which of the two counts
-            return
+            path = self.document.path
+            if path is not None and path.is_file():
+                self.changed_outside = True  # asks which of the two counts
+                return
+            # A folder, say: what is the matter with it the attempt tells.
+            written = self._tried(lambda: self.files.save(self.document, anyway=True))
         if written:
             self.changed_outside = self._mine = False
             self.shared.say(f"Saved {self.document.path}")
