@@ -17,6 +17,16 @@ _TURN = 0.0075  # rad that a pixel of dragging turns
 Vector = NDArray[np.float64]
 
 
+def perspective(fov: float, aspect: float, near: float, far: float) -> NDArray[np.float64]:
+    """(4, 4) for column vectors. fov: rad, upright; near, far: m."""
+    scale = 1.0 / math.tan(0.5 * fov)
+    matrix = np.zeros((4, 4))
+    matrix[0, 0], matrix[1, 1] = scale / max(aspect, 1e-3), scale
+    matrix[2, 2], matrix[2, 3] = (far + near) / (near - far), 2.0 * far * near / (near - far)
+    matrix[3, 2] = -1.0
+    return matrix
+
+
 @dataclass(slots=True)
 class OrbitCamera:
     """Looks from `distance` metres away at `target`; yaw 0 looks along -z, pitch up from level."""
@@ -60,12 +70,7 @@ class OrbitCamera:
         """(4, 4) for column vectors; as deep as what it may look at."""
         near = min(max(0.002 * self.distance, 0.5), 50.0)
         far = max(80.0 * self.distance, 120_000.0)
-        scale = 1.0 / math.tan(0.5 * self.fov)
-        matrix = np.zeros((4, 4))
-        matrix[0, 0], matrix[1, 1] = scale / max(aspect, 1e-3), scale
-        matrix[2, 2], matrix[2, 3] = (far + near) / (near - far), 2.0 * far * near / (near - far)
-        matrix[3, 2] = -1.0
-        return matrix
+        return perspective(self.fov, aspect, near, far)
 
     # How it moves
 

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from weather_ecs.editor.camera import perspective
+
 EYE = 1.7  # m over the ground
 STEEPEST = math.radians(89.0)
 WALK, FLIGHT = 4.0, 90.0  # m/s
@@ -68,12 +70,7 @@ class WorldCamera:
 
     def projection(self, aspect: float) -> Vector:
         """(4, 4) for column vectors."""
-        scale = 1.0 / math.tan(0.5 * self.fov)
-        matrix = np.zeros((4, 4))
-        matrix[0, 0], matrix[1, 1] = scale / max(aspect, 1e-3), scale
-        matrix[2, 2], matrix[2, 3] = (FAR + NEAR) / (NEAR - FAR), 2.0 * FAR * NEAR / (NEAR - FAR)
-        matrix[3, 2] = -1.0
-        return matrix
+        return perspective(self.fov, aspect, NEAR, FAR)
 
     def look(self, dx: float, dy: float) -> None:
         """Turn by a drag of so many pixels: what was under the mouse stays near it."""
