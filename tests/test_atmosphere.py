@@ -211,3 +211,39 @@ def test_bad_input() -> None:
     for bad in (0.9, 10.1, math.nan):
         with pytest.raises(InvalidValueError, match="turbidity"):
             atmosphere.transmittance(10.0, bad)
+
+
+def test_a_table_made_ahead_in_parts_is_the_one_made_at_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Before the sun gets there; then nothing is left to be made when it does."""
+    monkeypatch.setattr(daylight, "_known", {})
+    monkeypatch.setattr(daylight, "_begun", {})
+    daylight.clear_sky(8.5)
+    assert sum(daylight.look_ahead(8.5) for _ in range(20)) == 2 * atmosphere.PARTS
+    table = atmosphere.sky_table(10.0)
+    kept, _ = daylight._known[list(daylight._KNOTS).index(10.0), daylight.CLEAR]
+    assert np.array_equal(kept.air, math.pi * table.air) and np.array_equal(kept.sun, table.sun)
+
+    def refuse(*_: object) -> None:
+        raise AssertionError("a whole table was made")
+
+    monkeypatch.setattr(daylight, "sky_table", refuse)
+    for altitude in (7.1, 8.5, 9.99):
+        daylight.clear_sky(altitude)
+    with pytest.raises(AssertionError):
+        daylight.clear_sky(10.5)
+
+
+def test_many_skies_do_not_keep_each_other_from_looking_ahead(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(daylight, "_known", {})
+    monkeypatch.setattr(daylight, "_begun", {})
+    monkeypatch.setattr(daylight, "MOST_KEPT", 6)
+    for _ in range(6 * atmosphere.PARTS):
+        daylight.look_ahead(-90.0)
+        daylight.look_ahead(90.0)
+        daylight.look_ahead(30.0, 3.0)
+        assert len(daylight._known) <= 6
+    assert not daylight.look_ahead(-90.0)

@@ -13,13 +13,16 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from weather_ecs.physics.atmosphere import (
+    PARTS,
     SkyTable,
     haze_phase,
+    sky_of_parts,
+    sky_part,
     sky_table,
     table_directions,
     transmittance,
@@ -48,6 +51,7 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _KNOTS = np.concatenate(
     [np.arange(-7.0, 10.5), np.arange(12.0, 21.0, 2.0), np.arange(25.0, 91.0, 5.0)]
 )
+MOST_KEPT = 192  # tables, of 50 kB each
 
 
 class ClearSky(NamedTuple):
@@ -78,15 +82,16 @@ class Scene(NamedTuple):
     ground: FloatArray  # (3,)
 
 
+_known: dict[tuple[int, float], tuple[ClearSky, float]] = {}  # by knot and turbidity
+_begun: dict[str, Any] = {}  # the table that is being made ahead, and its parts
+
 MOON = moon_illuminance(45.0, 0.0) / sun_illuminance(45.0)  # the full moon's light over the sun's
 
 
 def clear_sky(altitude: float, turbidity: float = CLEAR) -> ClearSky:
     """The clear sky for a source at a true altitude in degrees, between the tables kept."""
     turbid = round(turbidity, 1)
-    place = min(max(altitude, float(_KNOTS[0])), 90.0)
-    i = min(int(np.searchsorted(_KNOTS, place, side="right")) - 1, len(_KNOTS) - 2)
-    share = (place - float(_KNOTS[i])) / float(_KNOTS[i + 1] - _KNOTS[i])
+    i, share = _between(altitude)
     low, low_level = _knot(i, turbid)
     if share == 0.0:
         high, high_level = low, low_level
@@ -103,6 +108,36 @@ def clear_sky(altitude: float, turbidity: float = CLEAR) -> ClearSky:
     return ClearSky(air, haze, sun, diffuse, zenith, horizon)
 
 
+def look_ahead(altitude: float, turbidity: float = CLEAR) -> bool:
+    """Make a part of a table that a source at such an altitude will need next, some 1 ms.
+
+    Called now and then before it moves on by a degree, no `clear_sky` has to make a whole one.
+    False where there is nothing left to do.
+    """
+    if not _begun:
+        turbid, (i, _) = round(turbidity, 1), _between(altitude)
+        wanted = [(k, turbid) for k in (i + 2, i - 1) if 0 <= k < len(_KNOTS)]
+        wanted = [key for key in wanted if key not in _known]
+        if not wanted:
+            return False
+        _begun.update(key=wanted[0], parts=[])
+    # One that somebody else has begun is made first: many skies do not keep each other from it.
+    key, parts = _begun["key"], _begun["parts"]
+    altitude = float(_KNOTS[key[0]])
+    parts.append(sky_part(altitude, key[1], len(parts)))
+    if len(parts) == PARTS:
+        _begun.clear()
+        _keep(key, sky_of_parts(altitude, key[1], parts))
+    return True
+
+
+def _between(altitude: float) -> tuple[int, float]:
+    """The knot below an altitude, and how far it is on the way to the next one, 0 to 1."""
+    place = min(max(altitude, float(_KNOTS[0])), 90.0)
+    i = min(int(np.searchsorted(_KNOTS, place, side="right")) - 1, len(_KNOTS) - 2)
+    return i, (place - float(_KNOTS[i])) / float(_KNOTS[i + 1] - _KNOTS[i])
+
+
 def _diffuse_lux(altitude: float, sun: FloatArray) -> float:
     """lx of the sky alone, of which the share of the sun's own light has been taken."""
     direct = SUN_LUX * float(sun @ LUMINANCE) * max(math.sin(math.radians(altitude)), 0.0)
@@ -110,11 +145,15 @@ def _diffuse_lux(altitude: float, sun: FloatArray) -> float:
     return max(whole - direct, 0.3 * whole, 1e-6)
 
 
-@lru_cache(maxsize=192)
 def _knot(index: int, turbidity: float) -> tuple[ClearSky, float]:
     """A table's sky, and the luminance of what level ground gets of it."""
-    altitude = float(_KNOTS[index])
-    table: SkyTable = sky_table(altitude, turbidity)
+    known = _known.get((index, turbidity))
+    return known or _keep((index, turbidity), sky_table(float(_KNOTS[index]), turbidity))
+
+
+def _keep(key: tuple[int, float], table: SkyTable) -> tuple[ClearSky, float]:
+    """What a table comes to; of those kept the oldest goes where there are too many."""
+    altitude = float(_KNOTS[key[0]])
     up, away = table_directions()
     h = math.radians(altitude)
     cosine = np.sqrt(1.0 - up * up) * np.cos(away) * math.cos(h) + up * math.sin(h)
@@ -133,7 +172,10 @@ def _knot(index: int, turbidity: float) -> tuple[ClearSky, float]:
     sky = ClearSky(math.pi * table.air, haze, table.sun, diffuse, zenith, horizon)
     for array in sky:
         array.setflags(write=False)
-    return sky, float(diffuse @ LUMINANCE)
+    while len(_known) >= MOST_KEPT:
+        _known.pop(next(iter(_known)), None)
+    _known[key] = sky, float(diffuse @ LUMINANCE)
+    return _known[key]
 
 
 @lru_cache(maxsize=1)

@@ -14,7 +14,15 @@ from weather_ecs.components import Atmosphere, Cloud, Fog
 from weather_ecs.components._base import set_unchecked
 from weather_ecs.frame import AtmosphereData, SkyLight
 from weather_ecs.physics import astronomy
-from weather_ecs.physics.daylight import LUMINANCE, NIGHT_LUX, SUN_LUX, Scene, clear_sky, scene
+from weather_ecs.physics.daylight import (
+    LUMINANCE,
+    NIGHT_LUX,
+    SUN_LUX,
+    Scene,
+    clear_sky,
+    look_ahead,
+    scene,
+)
 from weather_ecs.physics.haze import Lit, haze_depth, haze_left, under_fog
 from weather_ecs.physics.illuminance import moon_phase_factor
 from weather_ecs.physics.optics import CLEAR, air_extinction
@@ -79,6 +87,8 @@ class Daylight:
         look = (air.latitude, air.longitude, air.turbidity, air.exposure, air.adaptation)
         shown = (air.draw, air.stars, air.disc, air.rainbow, halo, state.drawn)
         key, fog = (time, overcast, haze, closed, look, shown), _fog_depth(state)
+        if self._key:
+            self._look_ahead(air.turbidity)
         if key == self._key and fog == self._fog:
             return
         if key != self._key:
@@ -88,6 +98,12 @@ class Daylight:
             self.data = None if data is None else replace(data, rainbow=data.rainbow * (1 - closed))
         self._fog = fog
         self.light = _light(self._heaven, fog)
+
+    def _look_ahead(self, turbidity: float) -> None:
+        """Get ready a little of what sun and moon will need when they have moved on."""
+        for direction in (self._heaven.sun, self._heaven.moon.direction):
+            if look_ahead(_altitude(direction), turbidity):
+                return
 
 
 def covered(state: float) -> float:
