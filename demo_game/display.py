@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import importlib
 import logging
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
 import pyglet
 
-from demo_game.game import START
+from demo_game.beginning import Beginning
 from demo_game.preparing import Abandoned
 from demo_game.settings import Settings
 
@@ -23,14 +23,7 @@ class NoDisplay(Exception):
 
 
 def make_window(
-    settings: Settings,
-    *,
-    seed: int = 0,
-    preset: str = "heavy",
-    start: tuple[float, float] = START,
-    metar: str | None = None,
-    watch: bool = False,
-    size: tuple[int, int] = (1280, 720),
+    settings: Settings, *, size: tuple[int, int] = (1280, 720), **beginning: Unpack[Beginning]
 ) -> GameWindow:
     """The game's window with the newest OpenGL there is.
 
@@ -55,33 +48,14 @@ def make_window(
             logging.getLogger("demo_game").debug("no OpenGL %d.%d: %s", major, minor, error)
             continue
         surface.close()
-        return GameWindow(
-            settings,
-            config,
-            size=size,
-            seed=seed,
-            preset=preset,
-            start=start,
-            metar=metar,
-            watch=watch,
-        )
+        return GameWindow(settings, config, size=size, **beginning)
     raise NoDisplay(_reason(reason))
 
 
-def open_window(
-    settings: Settings,
-    *,
-    seed: int = 0,
-    preset: str = "heavy",
-    start: tuple[float, float] = START,
-    metar: str | None = None,
-    watch: bool = False,
-) -> int:
+def open_window(settings: Settings, **beginning: Unpack[Beginning]) -> int:
     """Play until the window is closed; returns the exit code."""
     try:
-        window = make_window(
-            settings, seed=seed, preset=preset, start=start, metar=metar, watch=watch
-        )
+        window = make_window(settings, **beginning)
     except Abandoned:
         return 0
     try:

@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 import time as clock
-from typing import Any
+from typing import Any, Unpack
 
 import moderngl
 import pyglet
 from pyglet.window import key
 
-from demo_game.game import START, Game
+from demo_game.beginning import Beginning
+from demo_game.game import Game
 from demo_game.gamepad import Gamepads
 from demo_game.input import Controls
 from demo_game.pictures import save_screenshot
 from demo_game.play_keys import play_key
 from demo_game.preparing import prepare_place
-from demo_game.screen_keys import screen_click, screen_key
+from demo_game.preparing_screen import PreparingScreen
+from demo_game.screens import Screen, Screens
 from demo_game.settings import Settings
 from demo_game.sound import WalkSound
-from demo_game.ui.menu import MenuActions, MouseRest, pause_menu
 from demo_game.ui.minimap import map_place
-from demo_game.ui.overlay import Overlay, Screen
-from demo_game.ui.preparing import PreparingView
+from demo_game.ui.overlay import Overlay
 from demo_game.ui.surface import prepare_for_pyglet, read_pixels
-from demo_game.ui.theme import Frame
 
 TITLE = "The Walk"
 LONGEST_DT = 0.25  # s; a pause of the machine does not move the player on
@@ -40,34 +39,20 @@ class GameWindow(pyglet.window.Window):
         config: Any = None,
         *,
         size: tuple[int, int] = (1280, 720),
-        seed: int = 0,
-        preset: str = "heavy",
-        start: tuple[float, float] = START,
-        metar: str | None = None,
-        watch: bool = False,
+        **beginning: Unpack[Beginning],
     ) -> None:
-        self.screen_shown = Screen.START
         self.ready = False
-        self._closed_early = False
-        self._prepared = (0, 0, 0)
+        self._preparing = PreparingScreen(self)
         super().__init__(
             *size, caption=TITLE, resizable=True, vsync=True, config=config, visible=False
         )
         try:
-            self._begin(settings, seed, preset, start, metar, watch)
+            self._begin(settings, beginning)
         except BaseException:
             super().close()
             raise
 
-    def _begin(
-        self,
-        settings: Settings,
-        seed: int,
-        preset: str,
-        start: tuple[float, float],
-        metar: str | None,
-        watch: bool,
-    ) -> None:
+    def _begin(self, settings: Settings, beginning: Beginning) -> None:
         self.set_minimum_size(*SMALLEST)
         self.settings = settings
         self.controls = Controls()
@@ -76,53 +61,19 @@ class GameWindow(pyglet.window.Window):
         self.set_visible(True)
         self.switch_to()
         self._gl = moderngl.get_context()
-        place = prepare_place(seed, self._draw_preparing)
+        seed = beginning.get("seed", 0)
+        place = prepare_place(seed, self._preparing.keep_alive)
         self.switch_to()
-        self.game = Game(
-            self._gl,
-            settings,
-            place=place,
-            seed=seed,
-            preset=preset,
-            start=start,
-            metar=metar,
-            watch=watch,
-        )
+        self.game = Game(self._gl, settings, place=place, **beginning)
         self.sound = WalkSound(self.game, settings, seed)
-        self.menu = pause_menu(
-            settings,
-            MenuActions(
-                resume=self.resume,
-                settings_changed=self._settings_changed,
-                again=self.again,
-                help=self._open_help,
-                quit=self.close,
-            ),
-        )
-        self._help_from = Screen.PAUSE
-        self._end_seen = False
-        self._mouse_rest = MouseRest()
-        self.overlay = Overlay(self.menu, map_place(self.game.place))
-        self._gamepads = Gamepads(self.controls, pause=self._toggle_pause)
+        self.screens = Screens(settings, self)
+        self.overlay = Overlay(self.screens.menu, map_place(self.game.place))
+        self._gamepads = Gamepads(self.controls, pause=self.screens.toggle_pause)
         self._ms = 16.0
         self._last = clock.perf_counter()
         self._wants_picture = False
         self.ready = True
         self._lay_out()
-
-    def _draw_preparing(self, seconds: float) -> bool:
-        self.dispatch_events()
-        state = (self.width, self.height, int(seconds * 2))
-        if self._closed_early or self.width < 1 or self.height < 1 or state == self._prepared:
-            return not self._closed_early
-        self._prepared = state
-        self.switch_to()
-        prepare_for_pyglet(self)
-        view = PreparingView(Frame(self.width, self.height))
-        view.draw(seconds)
-        view.delete()
-        self.flip()
-        return True
 
     def play(self) -> None:
         """Run until the window is closed."""
@@ -157,15 +108,16 @@ class GameWindow(pyglet.window.Window):
         if not self.ready:
             return
         dt = min(max(dt, 0.0), LONGEST_DT)
-        self._mouse_rest.frame()
+        self.screens.frame()
         self.overlay.update(dt)
-        if self.screen_shown is Screen.PLAY:
+        shown = self.screens.shown
+        if shown is Screen.PLAY:
             self.game.player.look(*self.controls.turn(dt))
             self.game.update(dt, self.controls.intent())
             self._follow_letter()
-        elif self.screen_shown in (Screen.START, Screen.END):
+        elif shown in (Screen.START, Screen.END):
             self.game.update(dt)
-        self.sound.update(dt, paused=self.screen_shown in (Screen.PAUSE, Screen.HELP))
+        self.sound.update(dt, paused=self.screens.shown in (Screen.PAUSE, Screen.HELP))
         self.draw(dt)
 
     def on_draw(self) -> None:
@@ -180,7 +132,7 @@ class GameWindow(pyglet.window.Window):
         screen.viewport = (0, 0, width, height)
         self.game.draw(screen)
         prepare_for_pyglet(self)
-        self.overlay.draw(self.screen_shown, self.game, self._ms)
+        self.overlay.draw(self.screens.shown, self.game, self._ms)
         if self._wants_picture:
             self._wants_picture = False
             self.overlay.say(f"Saved {save_screenshot(read_pixels(width, height))}")
@@ -189,47 +141,22 @@ class GameWindow(pyglet.window.Window):
         news = self.game.take_news()
         if news:
             self.overlay.say(news)
-        if self.game.letter.ended and not self._end_seen:
-            self._end_seen = True
-            self._show(Screen.END)
+        if self.game.letter.ended:
+            self.screens.end()
 
-    # Screens
+    # What the screens ask
 
-    def again(self) -> None:
-        """Begin anew, with another letter."""
-        self.game.again()
-        self._end_seen = False
-        self.resume()
-
-    def resume(self) -> None:
-        """Go on playing."""
-        self._show(Screen.PLAY)
-
-    def pause(self) -> None:
-        """Stop and show the menu; from the start screen or the help page nothing changes."""
-        if self.screen_shown is Screen.PLAY:
-            self.menu.chosen = 0
-            self._show(Screen.PAUSE)
-
-    def _toggle_pause(self) -> None:
-        if self.screen_shown is Screen.PLAY:
-            self.pause()
-        elif self.screen_shown is Screen.END:
-            self.again()
-        else:
-            self.resume()
-
-    def _open_help(self) -> None:
-        self._help_from = self.screen_shown
-        self._show(Screen.HELP)
-
-    def _show(self, screen: Screen) -> None:
-        self.screen_shown = screen
-        self._mouse_rest = MouseRest()
+    def screen_changed(self, screen: Screen) -> None:
+        """Another screen is shown: the mouse is the player's, or free."""
         self.controls.clear()
         self.set_exclusive_mouse(screen is Screen.PLAY)
 
-    def _settings_changed(self, field: str) -> None:
+    def new_letter(self) -> None:
+        """Begin anew."""
+        self.game.again()
+
+    def settings_changed(self, field: str) -> None:
+        """A setting has another value."""
         if field == "fullscreen":
             self.set_fullscreen(self.settings.fullscreen)
         else:
@@ -242,20 +169,20 @@ class GameWindow(pyglet.window.Window):
         """A key for the screen that is shown, or for any of them."""
         name = key.symbol_string(symbol)
         if not self.ready:
-            self._closed_early = self._closed_early or name == "ESCAPE"
+            self._preparing.closed = self._preparing.closed or name == "ESCAPE"
         elif name == "F1":
-            self.back() if self.screen_shown is Screen.HELP else self._open_help()
+            self.screens.toggle_help()
         elif name == "F3":
             self.overlay.show_readout = not self.overlay.show_readout
         elif name == "F11":
             self.settings.fullscreen = not self.settings.fullscreen
-            self._settings_changed("fullscreen")
+            self.settings_changed("fullscreen")
         elif name == "F12":
             self._wants_picture = True
-        elif self.screen_shown is not Screen.PLAY:
-            screen_key(name, self)
+        elif self.screens.shown is not Screen.PLAY:
+            self.screens.key(name)
         elif name == "ESCAPE":
-            self.pause()
+            self.screens.pause()
         else:
             answer = play_key(name, self.game, self.overlay)
             if answer is None:
@@ -268,20 +195,16 @@ class GameWindow(pyglet.window.Window):
         """A key came up."""
         self.controls.release(key.symbol_string(symbol))
 
-    def back(self) -> None:
-        """From the help page to what was there before."""
-        self._show(self._help_from)
-
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
         """Look, or point at a row of the menu."""
         if not self.ready:
             return
-        if self.screen_shown is Screen.PLAY:
+        if self.screens.shown is Screen.PLAY:
             speed = self.settings.look_speed
             rise = -dy if self.settings.invert else dy
             self.game.player.look(-dx * speed, rise * speed)
-        elif self.screen_shown is Screen.PAUSE and self._mouse_rest.moved(x, y):
-            self.menu.point(self.overlay.pause_view.row_at(x, y))
+        elif self.screens.shown is Screen.PAUSE:
+            self.screens.point(x, y, self.overlay.pause_view.row_at(x, y))
 
     def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int) -> None:
         """The same with a button held."""
@@ -291,13 +214,13 @@ class GameWindow(pyglet.window.Window):
         """Begin, choose, begin anew, or close the help page."""
         if self.ready:
             view = self.overlay.pause_view
-            screen_click(self, view.row_at(x, y), view.side_at(x))
+            self.screens.click(view.row_at(x, y), view.side_at(x))
 
     def on_deactivate(self) -> None:
         """Another window has the keys now."""
         if self.ready:
             self.controls.clear()
-            self.pause()
+            self.screens.pause()
 
     def on_resize(self, width: int, height: int) -> None:
         """Lay out for the new size; a minimised window has none."""
@@ -309,7 +232,7 @@ class GameWindow(pyglet.window.Window):
         """The window's own close button."""
         if self.ready:
             self.close()
-        self._closed_early = True
+        self._preparing.closed = True
 
     def _lay_out(self) -> None:
         if self.width >= 1 and self.height >= 1:

@@ -14,8 +14,8 @@ from typing import Any
 from demo_game.display import make_window
 from demo_game.letter import RUINED_AT, Letter
 from demo_game.pictures import save_png
+from demo_game.screens import Screen
 from demo_game.settings import Settings
-from demo_game.ui.overlay import Screen
 from demo_game.ui.surface import prepare_for_pyglet, read_pixels
 from demo_game.ui.theme import Text
 

@@ -17,7 +17,7 @@ def line(game_window: Any) -> dict[str, Any]:
     game = game_window.game
     stats = game.weather.stats
     return {
-        "screen": game_window.screen_shown.value,
+        "screen": game_window.screens.shown.value,
         "size": game_window.get_size(),
         "position": game.player.position.tolist(),
         "yaw": game.player.yaw,

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from enum import Enum
 from typing import Any
 
 from demo_game.game import Game
 from demo_game.reports import summary
+from demo_game.screens import Screen
 from demo_game.ui.end import EndView
 from demo_game.ui.help import HelpView
 from demo_game.ui.hud import INTERVAL, Message, Readout, readout_values
@@ -16,16 +16,6 @@ from demo_game.ui.menu_view import MenuView
 from demo_game.ui.minimap import MapArea, MapPlace, Minimap
 from demo_game.ui.start import StartView
 from demo_game.ui.theme import Frame
-
-
-class Screen(Enum):
-    """What the player is looking at."""
-
-    START = "start"
-    PLAY = "play"
-    PAUSE = "pause"
-    HELP = "help"
-    END = "end"
 
 
 class Overlay:
