@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from typing import Any
 
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.gl import GL
@@ -22,26 +23,27 @@ class TextureUnits:
         bindings += [(own, pair) for pair in (*TEXTURES, MULTISAMPLE)]
         samplers = [(unit, (0, e.SAMPLER_BINDING)) for unit in range(self._count)]
         self._values = (ctypes.c_int * (len(bindings) + len(samplers)))()
-        first = ctypes.addressof(self._values)
+        self._get = gl.reader("glGetIntegerv")
         self._units = [e.TEXTURE0 + unit for unit in sorted({*range(self._count), own})]
-        self._reads: dict[int, list[tuple[int, int]]] = {unit: [] for unit in self._units}
+        self._reads: dict[int, list[tuple[int, Any]]] = {unit: [] for unit in self._units}
         self._binds: dict[int, list[tuple[int, int]]] = {unit: [] for unit in self._units}
         for place, (unit, (target, name)) in enumerate(bindings + samplers):
-            self._reads[e.TEXTURE0 + unit].append((name, first + 4 * place))
+            reference = ctypes.byref(self._values, 4 * place)
+            self._reads[e.TEXTURE0 + unit].append((name, reference))
             if target:
                 self._binds[e.TEXTURE0 + unit].append((target, place))
         self._first_sampler = len(bindings)
-        self._samplers = first + 4 * self._first_sampler
+        self._samplers = ctypes.addressof(self._values) + 4 * self._first_sampler
         self._active = e.TEXTURE0
 
     def save(self) -> None:
         gl = self._gl
-        get, activate = gl.glGetIntegerv, gl.glActiveTexture
+        get, activate = self._get, gl.glActiveTexture
         self._active = gl.get_int(e.ACTIVE_TEXTURE)
         for unit, reads in self._reads.items():
             activate(unit)
-            for name, address in reads:
-                get(name, address)
+            for name, place in reads:
+                get(name, place)
 
     def baseline(self) -> None:
         """A host's sampler object would override the filters of our textures."""
@@ -79,15 +81,15 @@ class Slots:
         self._target = target
         self._name, self._start, self._size = names
         self._buffer = (ctypes.c_int * max(count, 1))()
-        address = ctypes.addressof(self._buffer)
-        self._reads = [(first + i, address + 4 * i) for i in range(count)]
+        self._get = gl.reader("glGetIntegeri_v")
+        self._reads = [(first + i, ctypes.byref(self._buffer, 4 * i)) for i in range(count)]
         self._range = (ctypes.c_int64 * 2)()
         self._ranges: dict[int, tuple[int, int]] = {}
 
     def save(self) -> None:
-        get, name = self._gl.glGetIntegeri_v, self._name
-        for index, address in self._reads:
-            get(name, index, address)
+        get, name = self._get, self._name
+        for index, place in self._reads:
+            get(name, index, place)
         self._ranges = {}
         if any(self._buffer):
             address = ctypes.addressof(self._range)

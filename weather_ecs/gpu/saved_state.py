@@ -23,13 +23,11 @@ from weather_ecs.gpu.state_tables import (
 class Values:
     """State values of one C type, read and set by the rows of a table."""
 
-    def __init__(
-        self, gl: GL, getter: Callable[[int, int | None], None], c_type: Any, rows: Sequence[Row]
-    ) -> None:
-        self._get = getter
-        self._size = ctypes.sizeof(c_type)
+    def __init__(self, gl: GL, getter: str, c_type: Any, rows: Sequence[Row]) -> None:
+        self._get = gl.reader(getter)
+        size = ctypes.sizeof(c_type)
         self.start: dict[int, int] = {}  # place of a state value, by its name
-        self._reads: list[tuple[int, int]] = []
+        self._reads: list[tuple[int, Any]] = []
         self._sets: list[tuple[Callable[..., None], tuple[int, ...], int, int]] = []
         self._baseline: list[tuple[Callable[..., None], tuple[float, ...]]] = []
         # Place and baseline of what only the host changes, and how to set it.
@@ -45,7 +43,7 @@ class Values:
             first = filled
             for part, count in parts:
                 self.start[part] = filled
-                self._reads.append((part, ctypes.addressof(self._buffer) + filled * self._size))
+                self._reads.append((part, ctypes.byref(self._buffer, filled * size)))
                 filled += count
             if parts[0][0] in UNCHANGED and baseline is not None:
                 self._unchanged.append((first, int(baseline[0]), function, prefix))
@@ -56,8 +54,8 @@ class Values:
 
     def save(self) -> None:
         get = self._get
-        for name, address in self._reads:
-            get(name, address)
+        for name, place in self._reads:
+            get(name, place)
         self.values = self._buffer[:]
 
     def baseline(self) -> None:
@@ -141,9 +139,9 @@ class SavedState:
         self, gl: GL, *, texture_units: int, own_unit: int, uniform_slots: int, storage_slots: int
     ) -> None:
         self._gl = gl
-        self._integers = Values(gl, gl.glGetIntegerv, ctypes.c_int, INTEGERS)
-        self._floats = Values(gl, gl.glGetFloatv, ctypes.c_float, FLOATS)
-        self._doubles = Values(gl, gl.glGetDoublev, ctypes.c_double, DOUBLES)
+        self._integers = Values(gl, "glGetIntegerv", ctypes.c_int, INTEGERS)
+        self._floats = Values(gl, "glGetFloatv", ctypes.c_float, FLOATS)
+        self._doubles = Values(gl, "glGetDoublev", ctypes.c_double, DOUBLES)
         self._switches = Switches(gl)
         self._textures = TextureUnits(gl, texture_units, own_unit)
         self._buffers = IndexedBuffers(gl, uniform_slots, storage_slots)
@@ -207,32 +205,33 @@ class DrawTargets:
         count = min(gl.get_int(e.MAX_DRAW_BUFFERS), 8)
         self._indices = range(1, count)
         self._buffers = (ctypes.c_int * count)()
-        first = ctypes.addressof(self._buffers)
-        self._reads = [(e.DRAW_BUFFER0 + i, first + 4 * i) for i in range(count)]
+        self._get, self._get_indexed = gl.reader("glGetIntegerv"), gl.reader("glGetIntegeri_v")
+        self._reads = [
+            (e.DRAW_BUFFER0 + i, ctypes.byref(self._buffers, 4 * i)) for i in range(count)
+        ]
         self._named = False
         self._scratch = (ctypes.c_int * 4)()
-        self._address = ctypes.addressof(self._scratch)
-        self._base: tuple[int, ...] = ()
+        self._place = ctypes.byref(self._scratch)
         self._different: list[tuple[int, tuple[int, ...]]] = []
 
     def save(self, framebuffer: int) -> None:
-        gl = self._gl
         self._named = framebuffer != 0
         if self._named:
-            for name, address in self._reads:
-                gl.glGetIntegerv(name, address)
+            get = self._get
+            for name, place in self._reads:
+                get(name, place)
         self._different = []
         # A host that blends its targets differently makes the second differ from the first.
         if self._indices and self._read(1) != self._read(0):
             self._different = [(index, self._read(index)) for index in self._indices]
 
     def _read(self, index: int) -> tuple[int, ...]:
-        gl, scratch, address = self._gl, self._scratch, self._address
-        gl.glGetIntegeri_v(e.COLOR_WRITEMASK, index, address)
+        gl, get, scratch, place = self._gl, self._get_indexed, self._scratch, self._place
+        get(e.COLOR_WRITEMASK, index, place)
         values = [gl.glIsEnabledi(e.BLEND, index), *scratch]
         if gl.glBlendFuncSeparatei is not None:
             for name in BLENDING:
-                gl.glGetIntegeri_v(name, index, address)
+                get(name, index, place)
                 values.append(scratch[0])
         return tuple(values)
 
