@@ -13,6 +13,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from weather_ecs.gpu.mip_array import mip_array, mip_levels
 from weather_ecs.physics.cloud_images import CLOUD_IMAGES
 
 SIZE = 256  # texels on a side
@@ -64,14 +65,17 @@ def hulls() -> NDArray[np.float32]:
     return found
 
 
+@cache
+def _levels() -> list[bytes]:
+    return [level.tobytes() for level in mip_levels(images())]
+
+
 def image_array(ctx: moderngl.Context) -> moderngl.TextureArray:
     """The images on the GPU; the caller releases it.
 
     Filtered trilinearly, but on a rasteriser in software, where that costs half as much again.
     """
-    data = images()
-    texture = ctx.texture_array((SIZE, SIZE, len(data)), 4, data.tobytes())
-    texture.build_mipmaps()
+    texture = mip_array(ctx, SIZE, 4, _levels())
     slow = any(name in ctx.info["GL_RENDERER"] for name in SOFTWARE)
     nearer = moderngl.LINEAR_MIPMAP_NEAREST if slow else moderngl.LINEAR_MIPMAP_LINEAR
     texture.filter = (nearer, moderngl.LINEAR)

@@ -18,6 +18,7 @@ from weather_ecs.gpu.flake_shapes import (
     plate,
     star,
 )  # fmt: skip
+from weather_ecs.gpu.mip_array import mip_array, mip_levels
 
 # Kinds and how many pictures of each, in the order of the layers; also in flake.vert.
 PLATES, NEEDLES, STARS, CLUMPS, WET = 12, 6, 28, 16, 6
@@ -42,14 +43,13 @@ def _many(draw: Callable[[np.random.Generator], NDArray], count: int, kind: int)
 
 
 @cache
-def _built() -> bytes:
-    return build().tobytes()
+def _built() -> list[bytes]:
+    return [level.tobytes() for level in mip_levels(build())]
 
 
 def flake_texture(ctx: moderngl.Context) -> moderngl.TextureArray:
     """The pictures on the GPU, with smaller levels for distance and for what is not in focus."""
-    texture = ctx.texture_array((SIZE, SIZE, LAYERS), 2, _built())
-    texture.build_mipmaps()
+    texture = mip_array(ctx, SIZE, 2, _built())
     # One level each: between two of them no flake is seen to change, and it is a third cheaper.
     texture.filter = moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR
     texture.repeat_x = texture.repeat_y = False

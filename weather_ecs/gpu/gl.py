@@ -129,6 +129,7 @@ class GL:
     glBindSamplers: Callable[[U, I, P], None] | None
     glTexParameteri: Callable[[U, U, I], None]
     glTexImage2D: Callable[[U, I, I, I, I, I, U, U, P], None]
+    glTexImage3D: Callable[[U, I, I, I, I, I, I, U, U, P], None]
     glCopyTexSubImage2D: Callable[[U, I, I, I, I, I, I, I], None]
     glGetTexLevelParameteriv: Callable[[U, I, U, P], None]
     glGetTexImage: Callable[[U, I, U, U, P], None]

@@ -14,6 +14,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from weather_ecs.gpu.mip_array import mip_array, mip_levels
+
 SIZE = 64  # texels on a side
 FRAMES = 16  # of each kind
 # Kinds, the first layer of each by FRAMES; crown and burst in two variants.
@@ -45,14 +47,13 @@ def build() -> NDArray[np.uint8]:
 
 
 @cache
-def _built() -> bytes:
-    return build().tobytes()
+def _built() -> list[bytes]:
+    return [level.tobytes() for level in mip_levels(build())]
 
 
 def splash_texture(ctx: moderngl.Context) -> moderngl.TextureArray:
     """The frames on the GPU, with smaller levels for distance."""
-    texture = ctx.texture_array((SIZE, SIZE, LAYERS), 2, _built())
-    texture.build_mipmaps()
+    texture = mip_array(ctx, SIZE, 2, _built())
     texture.filter = moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR
     texture.repeat_x = texture.repeat_y = False
     return texture
