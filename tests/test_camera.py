@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from tests.views import look_from, perspective
@@ -14,9 +14,7 @@ from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.camera import camera_from, wrap_angle
 
 
-@given(
-    st.floats(-500, 500), st.floats(-500, 500), st.floats(-3.1, 3.1), st.floats(-1.4, 1.4)
-)
+@given(st.floats(-500, 500), st.floats(-500, 500), st.floats(-3.1, 3.1), st.floats(-1.4, 1.4))
 def test_position_and_heading_come_back(x: float, z: float, heading: float, pitch: float) -> None:
     camera = camera_from(look_from((x, 2.0, z), heading, pitch), perspective())
     assert np.allclose(camera.position, (x, 2.0, z), atol=1e-6)
@@ -63,3 +61,17 @@ def test_what_is_no_camera_is_named(bad: object) -> None:
         camera_from(bad, perspective())
     with pytest.raises(InvalidValueError, match="projection"):
         camera_from(np.eye(4), bad)
+
+
+@given(st.lists(st.floats(-10.0, 10.0), min_size=12, max_size=12))
+def test_any_affine_view_is_inverted(numbers: list[float]) -> None:
+    view = np.vstack([np.reshape(numbers, (3, 4)), [0.0, 0.0, 0.0, 1.0]])
+    assume(abs(np.linalg.det(view)) > 1e-3)
+    expected = np.linalg.inv(view)[:3, 3]
+    found = camera_from(view, perspective()).position
+    assert np.allclose(found, expected, rtol=1e-9, atol=1e-9 * np.linalg.cond(view))
+
+
+def test_a_view_that_is_not_affine_is_inverted_too() -> None:
+    view = look_from((3.0, 4.0, 5.0), 1.0, 0.2) * 2.0
+    assert camera_from(view, perspective()).position == pytest.approx((1.5, 2.0, 2.5))

@@ -42,8 +42,8 @@ def matrix(value: Any, name: str) -> NDArray:
         array = array.reshape(4, 4).T
     if array.shape != (4, 4):
         raise InvalidValueError(name, value, "16 column-major floats or a (4, 4) array")
-    # A sum is finite only if every term is, and costs a fifth of np.isfinite(...).all().
-    if not math.isfinite(float(array.sum())):
+    # A sum is finite only if every term is, and of so few numbers numpy's takes longer.
+    if not math.isfinite(sum(map(sum, array.tolist()))):
         raise InvalidValueError(name, value, "finite numbers")
     return array
 
@@ -61,14 +61,14 @@ def camera_from(view: Any, projection: Any) -> Camera:
     v = matrix(view, "view")
     p = matrix(projection, "projection")
     try:
-        inverse = np.linalg.inv(v)
+        i = _inverse(v)
         singular = _singular(p.tobytes())
     except np.linalg.LinAlgError as error:
         raise InvalidValueError("view", view, "an invertible matrix") from error
     if singular:
         raise InvalidValueError("projection", projection, "an invertible matrix")
-    i = inverse.tolist()
-    if not math.isfinite(sum(map(sum, i))) or max(abs(x) for row in i for x in row) > 1e12:
+    numbers = [abs(number) for row in i for number in row]
+    if not math.isfinite(sum(numbers)) or max(numbers) > 1e12:
         raise InvalidValueError("view", view, "an invertible matrix")
     position = (i[0][3], i[1][3], i[2][3])
     forward = (-i[0][2], -i[2][2])
@@ -77,6 +77,27 @@ def camera_from(view: Any, projection: Any) -> Camera:
         forward = (sign * i[0][1], sign * i[2][1])
     heading = math.atan2(-forward[1], forward[0])
     return Camera(v, p, position, heading, _half_width(i, p.tolist(), heading))
+
+
+def _inverse(matrix: NDArray) -> list[list[float]]:
+    """Of a (4, 4) matrix, row by row. A view's is affine, which is quicker without numpy.
+
+    Raises LinAlgError where there is none.
+    """
+    (a, b, c, x), (d, e, f, y), (g, h, i, z), last = matrix.tolist()
+    if last != [0.0, 0.0, 0.0, 1.0]:
+        inverse: list[list[float]] = np.linalg.inv(matrix).tolist()
+        return inverse
+    p, q, r = e * i - f * h, f * g - d * i, d * h - e * g
+    determinant = a * p + b * q + c * r
+    if determinant == 0.0:
+        raise np.linalg.LinAlgError("Singular matrix")
+    k = 1.0 / determinant
+    first = k * p, k * (c * h - b * i), k * (b * f - c * e)
+    second = k * q, k * (a * i - c * g), k * (c * d - a * f)
+    third = k * r, k * (b * g - a * h), k * (a * e - b * d)
+    rows = [[u, v, w, -(u * x + v * y + w * z)] for u, v, w in (first, second, third)]
+    return [*rows, last]
 
 
 @lru_cache(maxsize=16)
