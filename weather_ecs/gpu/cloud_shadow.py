@@ -7,6 +7,7 @@ from typing import Any
 import moderngl
 
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+from weather_ecs.gpu.host_program import use_block, use_maps
 
 # Spelled out once more in shaders/cloud_shadow.glsl, which games paste into their own shaders.
 WEATHER_CLOUD_SHADOW = UniformBlock(
@@ -46,12 +47,8 @@ class CloudShadow:
         """Bind the map to a texture unit, the block to the binding it has, and point the program's
         uniforms at them. What the shader does not use is left out.
         """
-        self.texture.use(unit)
-        if "weather_shadow_map" in program:
-            program["weather_shadow_map"] = unit
-        if "WeatherCloudShadow" in program:
-            program["WeatherCloudShadow"].binding = self._block.binding
-            self._block.bind()
+        use_maps(program, unit, weather_shadow_map=self.texture)
+        use_block(program, self._block)
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""

@@ -7,6 +7,8 @@ from typing import Any
 
 import moderngl
 
+from weather_ecs.gpu.host_program import use_maps
+
 Four = tuple[float, float, float, float]
 
 
@@ -24,11 +26,7 @@ class RippleMap:
 
     def use(self, program: Any, unit: int = 0) -> None:
         """Bind the texture to a unit, and set the program's uniforms."""
-        self.texture.use(unit)
-        for name, value in (
-            ("ripple_map", unit),
-            ("ripple_place", self.place),
-            ("ripple_scale", self.scale),
-        ):
+        use_maps(program, unit, ripple_map=self.texture)
+        for name, value in (("ripple_place", self.place), ("ripple_scale", self.scale)):
             if name in program:
                 program[name] = value

@@ -10,6 +10,7 @@ import numpy as np
 from weather_ecs.frame import FrameData
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
 from weather_ecs.gpu.flash import HAZE, block_flash, flash_of
+from weather_ecs.gpu.host_program import use_block
 from weather_ecs.physics.optics import CLEAR, CONTRAST, falling_extinction
 from weather_ecs.physics.phase import share_at, temperature_at
 
@@ -107,9 +108,7 @@ class WeatherAir:
 
     def use(self, program: Any) -> None:
         """Bind the block to the binding it has, and point the program's at it, if it has one."""
-        if "WeatherAir" in program:
-            program["WeatherAir"].binding = self._block.binding
-            self._block.bind()
+        use_block(program, self._block)
 
     def release(self) -> None:
         """Give the buffer back; twice does no harm."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from weather_ecs.frame import AtmosphereData, SkyLight
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+from weather_ecs.gpu.host_program import use_block, use_maps
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.atmosphere import COLUMNS, ROWS
 from weather_ecs.physics.daylight import BLUE_SHIFT, LUMINANCE
@@ -103,12 +104,8 @@ class WeatherSky:
         """Bind the map to a texture unit, the block to the binding it has, and point the program's
         uniforms at them. What the shader does not use is left out.
         """
-        self.texture.use(unit)
-        if "weather_sky_map" in program:
-            program["weather_sky_map"] = unit
-        if "WeatherSkyLight" in program:
-            program["WeatherSkyLight"].binding = self._block.binding
-            self._block.bind()
+        use_maps(program, unit, weather_sky_map=self.texture)
+        use_block(program, self._block)
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""

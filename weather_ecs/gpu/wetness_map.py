@@ -7,6 +7,7 @@ from typing import Any
 import moderngl
 
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+from weather_ecs.gpu.host_program import use_block, use_maps
 
 # Spelled out once more in shaders/wetness.glsl, which games paste into their own shaders.
 WEATHER_WETNESS = UniformBlock(
@@ -47,14 +48,8 @@ class WetnessMap:
         """Bind the textures to two units from `unit` on, the block to the binding it has, and
         point the program's uniforms at them. What the shader does not use is left out.
         """
-        self.texture.use(unit)
-        self.far.use(unit + 1)
-        for name, number in (("weather_wet_map", unit), ("weather_wet_far", unit + 1)):
-            if name in program:
-                program[name] = number
-        if "WeatherWetness" in program:
-            program["WeatherWetness"].binding = self._block.binding
-            self._block.bind()
+        use_maps(program, unit, weather_wet_map=self.texture, weather_wet_far=self.far)
+        use_block(program, self._block)
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""

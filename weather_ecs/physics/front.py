@@ -4,7 +4,7 @@ Drops leave the ceiling together and arrive by their speeds, the largest first. 
 rested from t0 to t1, the drops are missing whose fall from the ceiling has taken a time between
 now - t1 and now - t0. `dry` holds two such spells, (from, to, from, to) in seconds ago; a spell of
 no length is none. A rain that begins after an endless lull: (seconds since, LONG, 0, 0); one that
-has ended: (-1, seconds since, 0, 0). shaders/drop_law.glsl has the same.
+has ended: (-1, seconds since, 0, 0). shaders/rain_front.glsl has the same.
 """
 
 from __future__ import annotations

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .checks import FloatArray
+from .crossing import Crossing
 from .front import SETTLED, Dry, extinction_arrived
 
 PARTS = 6  # of a way through rain that begins or ends; also in shaders/veil.frag
@@ -41,18 +42,6 @@ def drops_share(distance: ArrayLike, shown: float) -> FloatArray:
     """
     away = np.asarray(distance, np.float64)
     return np.clip(1.0 - away / shown, 0.0, 1.0) if shown > 0.0 else np.zeros_like(away)
-
-
-def over_level(
-    level: float, lowest: NDArray, a: NDArray, middle: NDArray, t0: NDArray, t1: NDArray
-) -> FloatArray:
-    """Integral over [t0, t1] of max(level - f(t), 0), f(t) = lowest + a (t - middle)^2."""
-    h = level - lowest
-    half_chord = np.sqrt(np.maximum(h, 0.0) / a)
-    x0 = np.clip(t0 - middle, -half_chord, half_chord)
-    x1 = np.clip(t1 - middle, -half_chord, half_chord)
-    area = (x1 - x0) * (h - a * (x0 * x0 + x0 * x1 + x1 * x1) / 3.0)
-    return np.where(h > 0.0, area, 0.0)
 
 
 def rain_span(
@@ -97,33 +86,19 @@ def rain_path(
     in each of which the share that has come down is that at its middle.
     """
     t0, t1 = rain_span(position, ray, end, ceiling, shown)
-    c, s = axis[2], axis[3]
-    ox, oz = position[0] - axis[0], position[2] - axis[1]
-    u, w = (ox * c - oz * s) / shape[0], (ox * s + oz * c) / shape[1]
-    du = (ray[..., 0] * c - ray[..., 2] * s) / shape[0]
-    dw = (ray[..., 0] * s + ray[..., 2] * c) / shape[1]
-    a = np.maximum(du * du + dw * dw, 1e-12)
-    middle = -(u * du + w * dw) / a
-    aside = u * dw - w * du
-    lowest = aside * aside / a
-    inner = shape[2]
-
-    def between(from_t: NDArray, to_t: NDArray) -> FloatArray:
-        whole = over_level(1.0, lowest, a, middle, from_t, to_t)
-        return whole - over_level(inner, lowest, a, middle, from_t, to_t)
-
+    crossing = Crossing(position, ray, axis, shape)
     if dry == SETTLED:
-        path = between(t0, t1)
+        path = crossing.full_path(t0, t1)
     else:
-        half_chord = np.sqrt(np.maximum(1.0 - lowest, 0.0) / a)
-        x0, x1 = (np.clip(t, middle - half_chord, middle + half_chord) for t in (t0, t1))
+        rim = crossing.middle - crossing.half_chord, crossing.middle + crossing.half_chord
+        x0, x1 = (np.clip(t, *rim) for t in (t0, t1))
         cuts = x0 + (x1 - x0) * (np.arange(PARTS + 1) / PARTS).reshape(-1, *[1] * x0.ndim)
         path = np.zeros_like(x0)
         for first, last in zip(cuts[:-1], cuts[1:], strict=True):
             fall = ceiling - (position[1] + ray[..., 1] * 0.5 * (first + last))
-            path += extinction_arrived(fall, dry, rain_rate) * between(first, last)
+            path += extinction_arrived(fall, dry, rain_rate) * crossing.full_path(first, last)
     length = np.sqrt((ray * ray).sum(axis=-1))
-    return np.where(t1 > t0, path / (1.0 - inner) * length, 0.0)
+    return np.where(t1 > t0, path * length, 0.0)
 
 
 def rain_distance(
@@ -146,15 +121,7 @@ def rain_distance(
     t0, t1 = rain_span(position, ray, end, ceiling, shown)
     path = rain_path(position, ray, end, axis, shape, ceiling, shown, dry, rain_rate)
     lost = extinction * path
-    c, s = axis[2], axis[3]
-    ox, oz = position[0] - axis[0], position[2] - axis[1]
-    u, w = (ox * c - oz * s) / shape[0], (ox * s + oz * c) / shape[1]
-    du = (ray[..., 0] * c - ray[..., 2] * s) / shape[0]
-    dw = (ray[..., 0] * s + ray[..., 2] * c) / shape[1]
-    a = np.maximum(du * du + dw * dw, 1e-12)
-    middle = -(u * du + w * dw) / a
-    half_chord = np.sqrt(np.maximum(1.0 - (u * dw - w * du) ** 2 / a, 0.0) / a)
-    near, far = np.maximum(t0, middle - half_chord), np.minimum(t1, middle + half_chord)
+    near, far = Crossing(position, ray, axis, shape).within(t0, t1)
     along = near + (far - near) / (2.0 + lost)
     return np.asarray(along * np.sqrt((ray * ray).sum(axis=-1)))
 
@@ -190,24 +157,14 @@ def curtain_share(
     fall.
     """
     t0, t1 = rain_span(position, ray, end, ceiling, shown)
-    c, s = axis[2], axis[3]
-
-    def own(x: ArrayLike, z: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        x, z = np.asarray(x, np.float64), np.asarray(z, np.float64)
-        return (x * c - z * s) / shape[0], (x * s + z * c) / shape[1]
-
-    u, w = own(position[0] - axis[0], position[2] - axis[1])
-    du, dw = own(ray[..., 0], ray[..., 2])
-    a = np.maximum(du * du + dw * dw, 1e-12)
-    middle, aside = -(u * du + w * dw) / a, u * dw - w * du
-    half_chord = np.sqrt(np.maximum(1.0 - aside * aside / a, 0.0) / a)
-    near = np.maximum(t0, middle - half_chord)
-    far = np.maximum(np.minimum(t1, middle + half_chord), near)
+    crossing = Crossing(position, ray, axis, shape)
+    near, far = crossing.within(t0, t1)
     fall = ceiling - (position[1] + ray[..., 1] * 0.5 * (near + far))
     soft = np.clip(fall / top, 0.0, 1.0) if top > 0.0 else np.ones_like(fall)
-    gone_u, gone_w = own(*drift)
-    across = (aside - (gone_u * dw - gone_w * du) * fall) / np.sqrt(a)
-    uneven = ragged * (0.35 + 0.55 * np.minimum(aside * aside / a, 1.0))
+    gone_u, gone_w = crossing.own(*drift)
+    gone = (gone_u * crossing.dw - gone_w * crossing.du) * fall
+    across = (crossing.aside - gone) / np.sqrt(crossing.a)
+    uneven = ragged * (0.35 + 0.55 * np.minimum(crossing.lowest, 1.0))
     return np.asarray(soft * (1.0 + uneven * rays_of_rain(across + phase)))
 
 

@@ -57,12 +57,10 @@ vec2 missing_speeds(float fall, vec2 spell)
 float extinction_arrived(float fall, vec4 dry, float L)
 {
     float share = 1.0;
-    if (dry.y > dry.x) {
-        vec2 v = missing_speeds(fall, dry.xy);
-        share -= extinction_below(v.y, L) - extinction_below(v.x, L);
-    }
-    if (dry.w > dry.z) {
-        vec2 v = missing_speeds(fall, dry.zw);
+    for (int k = 0; k < 2; ++k) {
+        vec2 spell = k == 0 ? dry.xy : dry.zw;
+        if (spell.y <= spell.x) continue;
+        vec2 v = missing_speeds(fall, spell);
         share -= extinction_below(v.y, L) - extinction_below(v.x, L);
     }
     return clamp(share, 0.0, 1.0);
@@ -71,12 +69,10 @@ float extinction_arrived(float fall, vec4 dry, float L)
 float water_arrived(float fall, vec4 dry, float L)
 {
     float share = 1.0;
-    if (dry.y > dry.x) {
-        vec2 v = missing_speeds(fall, dry.xy);
-        share -= water_below(v.y, L) - water_below(v.x, L);
-    }
-    if (dry.w > dry.z) {
-        vec2 v = missing_speeds(fall, dry.zw);
+    for (int k = 0; k < 2; ++k) {
+        vec2 spell = k == 0 ? dry.xy : dry.zw;
+        if (spell.y <= spell.x) continue;
+        vec2 v = missing_speeds(fall, spell);
         share -= water_below(v.y, L) - water_below(v.x, L);
     }
     return clamp(share, 0.0, 1.0);

@@ -1,0 +1,28 @@
+"""What a game's own program reads of the weather: maps on texture units, and blocks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import moderngl
+
+from weather_ecs.gpu.blocks import BlockBuffer
+
+
+def use_maps(program: Any, unit: int, **maps: moderngl.Texture) -> None:
+    """Bind textures to units from `unit` on, and point the program's samplers at them by name.
+
+    Names that the shader does not use are left out.
+    """
+    for number, (name, texture) in enumerate(maps.items(), unit):
+        texture.use(number)
+        if name in program:
+            program[name] = number
+
+
+def use_block(program: Any, buffer: BlockBuffer) -> None:
+    """Bind a block to the binding it has, and point the program's at it, if it has one."""
+    name = buffer.block.name
+    if name in program:
+        program[name].binding = buffer.binding
+        buffer.bind()
