@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from demo_game.collision import Colliders
-from demo_game.place import Place, bake, cabin, flora, layout
+from demo_game.place import Place, bake, cabin, flora, jetty, layout
 from demo_game.place.mesh import Builder
 from demo_game.place.noise import Noise
 from demo_game.place.windmill import HUB, REACH
+from demo_game.player import Intent, Player
 
 WALKER = 0.3  # m, radius
 EYE = 1.7  # m
@@ -173,7 +176,9 @@ def test_meshes_are_whole(place: Place) -> None:
         assert (mesh.lamp >= 0.0).all(), name
 
 
-@pytest.mark.parametrize("name", ["cabin", "room", "lamps", "windmill", "mailbox", "figure"])
+@pytest.mark.parametrize(
+    "name", ["cabin", "room", "lamps", "windmill", "mailbox", "jetty", "figure"]
+)
 def test_triangles_face_the_way_their_normals_do(place: Place, name: str) -> None:
     mesh = place.meshes[name]
     a, b, c = mesh.vertices[mesh.indices].transpose(1, 0, 2)
@@ -184,12 +189,41 @@ def test_triangles_face_the_way_their_normals_do(place: Place, name: str) -> Non
 
 
 def test_no_drawn_thing_hangs_in_the_air(place: Place) -> None:
-    for name in ("lamps", "fences", "rocks", "mailbox", "windmill", "yard"):
+    for name in ("lamps", "fences", "rocks", "mailbox", "windmill", "yard", "jetty"):
         mesh = place.meshes[name]
         x, y, z = mesh.vertices.T.astype("f8")
         assert (y - place.height(x, z)).min() < 0.0, name
     foot = place.trees.foot
     assert (foot[:, 1] < place.height(foot[:, 0], foot[:, 2])).all()
+
+
+def test_one_walks_out_on_the_jetty_and_the_rain_ends_on_it(
+    place: Place, colliders: Colliders
+) -> None:
+    (low, high), z = layout.JETTY
+    player = Player(place, colliders)
+    player.place_at(high + 1.5, z, yaw=0.5 * math.pi)  # looks along -x
+    for _ in range(400):
+        if player.position[0] < low + 0.6:
+            break
+        player.update(1.0 / 60.0, Intent(forward=1.0))
+        x, y, _ = player.position
+        assert y > place.pond.level - 0.02
+        if low < x < high - 0.3:
+            assert y == pytest.approx(place.pond.level + jetty.ABOVE_WATER)
+    else:
+        pytest.fail("stopped on the way")
+    assert place.height(low + 0.6, z) < place.pond.level - 0.5  # there is water below
+    mesh = place.meshes["jetty"]
+    assert len(mesh.indices) < 150
+    shape = {shape.name: shape for shape in place.occluders()}["jetty"]
+    assert not shape.dynamic and len(shape.indices) == 12
+    for side in (shape.vertices, mesh.vertices):
+        assert side[:, 1].max() > place.pond.level + 0.3
+    # What rain meets is the deck as it is drawn, to a few centimetres.
+    drawn = mesh.vertices[np.abs(mesh.vertices[:, 1] - shape.vertices[:, 1].max()) < 0.02]
+    for axis in (0, 2):
+        assert np.ptp(drawn[:, axis]) == pytest.approx(np.ptp(shape.vertices[:, axis]), abs=0.1)
 
 
 def test_ground_chunks_cover_the_whole_grid_once_in_both_levels(place: Place) -> None:

@@ -18,6 +18,7 @@ CABIN = (6.0, -62.0)  # middle of the room, door on the +z side
 WINDMILL = (35.0, -85.0)
 POND = (-28.0, -70.0)
 POND_RADII = (13.0, 9.0)
+JETTY = (-18.4, -12.9), -68.6  # ends along x, and z, m
 MAILBOX = (-25.0, -160.0)
 BENCH, BENCH_FACING = (-6.4, -50.2), 1.1  # (x, z); rad about +y
 WOODPILE = (2.65, -62.4)

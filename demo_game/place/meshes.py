@@ -16,6 +16,7 @@ from . import (
     cabin_solid,
     figure,
     flag,
+    jetty,
     layout,
     props,
     sight_posts,
@@ -83,6 +84,9 @@ def open_meshes(
     x, z = layout.FLAG
     flag.pole(yard, x, height(x, z), z)
     yield "yard", yard.build()
+    pier = Builder(31)
+    jetty.jetty(pier, terrain)
+    yield "jetty", pier.build()
     row = Builder(29)
     sight_posts.posts(row, height)
     yield "sight_posts", row.build()

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .cabin import WINDOWS
 from .cabin_solid import Block, pane_blocks
 from .figure import PARTS
+from .jetty import deck
 from .layout import BIRCH, BUSH, CONIFER
 from .mesh import Builder, Mesh
 from .rocks import sphere
@@ -83,6 +84,11 @@ def occluders(
     yield Occluder("trees", *_tree_mesh(near), False)
     for name in ("lamps", "fences", "rocks", "windmill", "mailbox"):
         yield Occluder(name, meshes[name].vertices, meshes[name].indices, False)
+    center, size = deck(terrain)
+    build = Builder()
+    build.box(center, size, (1, 1, 1))
+    planks = build.build()
+    yield Occluder("jetty", planks.vertices, planks.indices, False)
     yield Occluder("sails", meshes["sails"].vertices, meshes["sails"].indices, True)
     for name, mesh in zip(PARTS, figure_parts, strict=True):
         yield Occluder(f"figure/{name}", mesh.vertices, mesh.indices, True)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from demo_game.collision import Box, Post
 
-from . import flag, layout, sight_posts, windmill
+from . import flag, jetty, layout, sight_posts, windmill
 from .cabin_solid import Block
 from .layout import BIRCH, BUSH, CONIFER
 from .scatter import VARIANTS, Trees
@@ -74,11 +74,11 @@ def single_posts(
 
 
 def yard_boxes(terrain: Terrain) -> list[Box]:
-    """The bench by the path and the woodpile at the cabin."""
+    """The bench by the path, the woodpile at the cabin, the jetty in the pond."""
     (x, z), turn = layout.BENCH, layout.BENCH_FACING
     y = terrain.height(x, z)
     found = [Box((x, z), (0.85, 0.25), y - SUNK, y + 0.48, turn)]
     x, z = layout.WOODPILE
     y = terrain.height(x, z)
     found.append(Box((x, z), (0.26, 1.5), y - SUNK, y + 1.0))
-    return found
+    return [*found, jetty.deck_box(terrain)]

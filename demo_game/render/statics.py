@@ -18,7 +18,8 @@ CABIN_NEAR = 44.0  # m, within which the cabin has all its planks
 # m, from where to where a mesh is drawn; others always are
 SHOWN = {"room": (0.0, CABIN_NEAR), "letter": (0.0, CABIN_NEAR), "cabin": (0.0, CABIN_NEAR),
          "cabin_far": (CABIN_NEAR, 1e9), "mailbox": (0.0, 160.0), "yard": (0.0, 90.0),
-         "lamps": (0.0, 180.0), "fences": (0.0, 115.0), "rocks": (0.0, 95.0)}  # fmt: skip
+         "jetty": (0.0, 110.0), "lamps": (0.0, 180.0), "fences": (0.0, 115.0),
+         "rocks": (0.0, 95.0)}  # fmt: skip
 GRAIN_UNIT = 1  # where the scene binds the detail map
 PARTS = 12
 ACTOR_REACH = 120.0  # m
