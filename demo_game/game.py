@@ -32,7 +32,7 @@ from demo_game.plays import Play, Turn
 from demo_game.render import Air, Environment, RainPatch, SceneRenderer
 from demo_game.settings import Settings
 from demo_game.showers import Showers
-from demo_game.skies import Light, SkyChanger, light_of, under_cloud
+from demo_game.skies import TIMES, TOUR_TIMES, Light, SkyChanger, light_of, under_cloud
 from demo_game.tours import Tour
 from demo_game.wholes import CENTER, KEY_TIME, Wholes, next_whole
 from weather_ecs import Weather
@@ -105,7 +105,12 @@ class Game:
             state, overcast = OPENING
             self.mood.put(replace(self.mood.current, state=state, overcast=overcast), preset)
         compared = self._is_compared
-        self.sky = SkyChanger(draw=not compared, runs=tour is None, rainbow=not compared)
+        self.sky = SkyChanger(
+            draw=not compared,
+            runs=tour is None,
+            rainbow=not compared,
+            times=TIMES if tour is None else TOUR_TIMES,
+        )
         self.light = Light()  # of the last update
         self._context, self._seed = context, seed
         self._before = esper.current_world

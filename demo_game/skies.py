@@ -30,15 +30,24 @@ class TimeOfDay:
     time: str  # UTC, at longitude 0
 
 
-# A day of March before the night of a full moon, from the afternoon on; the key goes round.
-TIMES = (
-    # The sun 29 degrees high behind who looks along the path: a rainbow in rain to the right.
+# The day of the tours, in March before the night of a full moon, from the afternoon on.
+TOUR_TIMES = (
     TimeOfDay("afternoon", "2025-03-13T14:30:00Z"),
     TimeOfDay("evening", "2025-03-13T17:00:00Z"),
     TimeOfDay("dusk", "2025-03-13T18:20:00Z"),
     TimeOfDay("night", "2025-03-13T21:30:00Z"),
     TimeOfDay("morning", "2025-03-13T07:40:00Z"),
     TimeOfDay("noon", "2025-03-13T12:10:00Z"),
+)
+# The day that is played, in November, whose sun is low and behind who looks along the path: the
+# shower ahead has a whole rainbow, and things have long shadows. The key goes round.
+TIMES = (
+    TimeOfDay("afternoon", "2025-11-05T13:40:00Z"),
+    TimeOfDay("evening", "2025-11-05T15:20:00Z"),
+    TimeOfDay("dusk", "2025-11-05T16:50:00Z"),
+    TimeOfDay("night", "2025-11-05T20:00:00Z"),
+    TimeOfDay("morning", "2025-11-05T08:33:00Z"),
+    TimeOfDay("noon", "2025-11-05T11:45:00Z"),
 )
 
 
@@ -120,11 +129,19 @@ class SkyChanger:
 
     CHANGE_TIME = 5.0  # s
 
-    def __init__(self, *, draw: bool = False, runs: bool = False, rainbow: bool = True) -> None:
+    def __init__(
+        self,
+        *,
+        draw: bool = False,
+        runs: bool = False,
+        rainbow: bool = True,
+        times: tuple[TimeOfDay, ...] = TIMES,
+    ) -> None:
+        self._times = times
         self._index, self._passed, self._runs = 0, self.CHANGE_TIME, runs
-        self._from = self._to = seconds(TIMES[0].time)
+        self._from = self._to = seconds(times[0].time)
         self.atmosphere = Atmosphere(
-            TIMES[0].time,
+            times[0].time,
             latitude=LATITUDE,
             speed=float(runs),
             draw=draw,
@@ -135,20 +152,20 @@ class SkyChanger:
     @property
     def name(self) -> str:
         """The time of day that is there or will be reached."""
-        return TIMES[self._index].name
+        return self._times[self._index].name
 
     def next(self) -> None:
         """Go on to the next time of day."""
-        self._index = (self._index + 1) % len(TIMES)
+        self._index = (self._index + 1) % len(self._times)
         self._from, self._passed = float(self.atmosphere.time), 0.0
-        self._to = seconds(TIMES[self._index].time)
+        self._to = seconds(self._times[self._index].time)
         if self._to < self._from:
             self._to += DAY
 
     def be(self, name: str) -> None:
         """Be at a time of day at once."""
-        self._index = next(k for k, time in enumerate(TIMES) if time.name == name)
-        self._to = seconds(TIMES[self._index].time)
+        self._index = next(k for k, time in enumerate(self._times) if time.name == name)
+        self._to = seconds(self._times[self._index].time)
         self._passed = self.CHANGE_TIME
         self._arrive()
 
@@ -184,7 +201,7 @@ class SkyChanger:
 
     def _arrive(self) -> None:
         # The next day's is this one's: the year does not go on with the key.
-        self.atmosphere.time = seconds(TIMES[self._index].time)
+        self.atmosphere.time = seconds(self._times[self._index].time)
         self.atmosphere.speed = float(self._runs)
 
 

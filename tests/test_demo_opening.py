@@ -29,6 +29,12 @@ def test_a_game_opens_on_sun_and_a_shower_ahead(ctx: moderngl.Context) -> None:
     assert game.light.sun_direction[2] > 0.3 < game.light.sun_direction[1]  # behind, high enough
     sky = game.weather._renderer._sky  # type: ignore[union-attr]
     assert sky is not None and sky.has_bow
+    # The bow's top stands clear over the hills, and its left foot on the path that one looks along.
+    x, y, z = game.light.sun_direction
+    assert math.radians(18.0) < math.radians(42.0) - math.asin(y) < math.radians(26.0)
+    aside = math.acos(math.cos(math.radians(42.0)) / math.hypot(x, z))
+    assert abs(math.atan2(-x, z) + aside) < math.radians(80.0)
+    assert abs(math.atan2(-x, z) - aside) < math.radians(20.0)
     assert game.mood.current.state == OPENING[0] < preset_mood("heavy", 0.0).state
     game.choose_preset("moderate")
     for _ in range(300):
