@@ -52,7 +52,10 @@ class OrbitCamera:
 
     def up(self) -> Vector:
         """Unit vector to the top of the picture."""
-        return np.cross(self.right(), self.forward())
+        rise = math.sin(self.pitch)
+        return np.array(
+            [rise * math.sin(self.yaw), math.cos(self.pitch), rise * math.cos(self.yaw)]
+        )
 
     def eye(self) -> Vector:
         """Where it stands, m."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,9 +37,7 @@ def sketch(posed: Posed, model: CloudModel, modes: Modes, seed: int, root: int) 
     if modes.rays:
         _rays(result, centers, shape.absorbed, shape.light, posed.middle, shape.radius)
     if modes.roots:
-        for index, each in enumerate(model.seeds):
-            for number, one in enumerate(each.roots):
-                _root(result, each, one, chosen=(index, number) == (seed, root))
+        result.add(_roots(model.seeds, seed, root))
     if chosen is not None and not modes.boxes and (modes.roots or modes.rays):
         pick = slice(chosen, chosen + 1)
         result.boxes(centers[pick], sizes[pick], (*CHOSEN, 0.9), 1.5)
@@ -94,6 +93,16 @@ def _rays(
         result.lines(centers - step, centers + step, color, 2.0)
 
 
+@lru_cache(maxsize=1)
+def _roots(seeds: tuple[CloudSeed, ...], chosen_seed: int, chosen_root: int) -> Sketch:
+    """All roots; kept while the seeds are the same ones, whatever else of the model changes."""
+    result = Sketch()
+    for index, each in enumerate(seeds):
+        for number, one in enumerate(each.roots):
+            _root(result, each, one, chosen=(index, number) == (chosen_seed, chosen_root))
+    return result
+
+
 def _root(result: Sketch, seed: CloudSeed, root: CloudRoot, *, chosen: bool) -> None:
     """An arrow to its last level, and the rim of its opening at the first."""
     color = (*(CHOSEN if chosen else ROOT), 1.0 if chosen else 0.75)
@@ -127,11 +136,9 @@ def _arrow(
     along /= length
     aside = np.cross(along, (0.0, 1.0, 0.0) if abs(along[1]) < 0.9 else (1.0, 0.0, 0.0))
     aside /= np.linalg.norm(aside)
-    result.lines(start, tip, color, width)
-    for turned in (aside, np.cross(along, aside)):
-        for side in (1.0, -1.0):
-            barb = tip - along * (0.10 * length) + turned * (side * 0.04 * length)
-            result.lines(barb, tip, color, width)
+    turned = np.array((aside, -aside, np.cross(along, aside), np.cross(aside, along)))
+    barbs = tip - along * (0.10 * length) + turned * (0.04 * length)
+    result.lines((start, *barbs), tip, color, width)
 
 
 def direction(pitch: float, yaw: float) -> NDArray[np.float64]:

@@ -68,12 +68,15 @@ class CloudStage:
         self._wanted = model, number
         self._posed = None
         with in_world(self._world):
-            if self._cloud is not None:
-                esper.delete_entity(self._entity, immediate=True)
+            if model is None:
+                if self._cloud is not None:
+                    esper.delete_entity(self._entity, immediate=True)
                 self._cloud = None
-            if model is not None:
+            elif self._cloud is None:
                 self._cloud = Cloud(model, (0.0, HEIGHT, 0.0), number, drift=0.0)
                 self._entity = esper.create_entity(self._cloud)
+            else:
+                self._cloud.model, self._cloud.number = model, number
         self._pose(model)
         return True
 
@@ -95,18 +98,17 @@ class CloudStage:
 
     @property
     def posed(self) -> Posed | None:
-        """What stands there, with its absorption as it is now; None for nothing."""
-        posed = self._posed
-        if posed is not None:
-            shapes = frame_of(self.weather).cloud_shapes
-            if shapes and shapes[0] is not posed.shape:
-                self._posed = posed = posed._replace(shape=shapes[0])
-        return posed
+        """What stands there, with its absorption as of the last step; None for nothing."""
+        return self._posed
 
     def step(self, dt: float) -> None:
         """Let the light follow."""
         with in_world(self._world):
             esper.process(dt)
+        if self._posed is not None:
+            shapes = frame_of(self.weather).cloud_shapes
+            if shapes and shapes[0] is not self._posed.shape:
+                self._posed = self._posed._replace(shape=shapes[0])
 
     def draw(self, view: NDArray, projection: NDArray, *, clouds: bool = True) -> None:
         """Sky and cloud into what is bound; the model's origin is at (0, HEIGHT, 0)."""

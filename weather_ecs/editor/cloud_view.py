@@ -48,11 +48,11 @@ class CloudView:
     def draw(self, document: Document, shared: Shared) -> None:
         """The bar of modes, the picture, the gizmo."""
         model = chosen_model(document, shared)
+        self.stage.show(model, shared.number)
         draw_bar(shared, self.stage.posed)
         rect = view.space_left()
         if rect.width < 2.0 or rect.height < 2.0:
             return
-        self.stage.show(model, shared.number)
         if self.stage.light(shared.sunlight, plain=shared.modes.plain):
             self._unsettled = SETTLING
         self._begin_anew(document, shared, rect)
@@ -110,6 +110,7 @@ class CloudView:
                 self._marks.take(sketch(posed, model, modes, *choice))
             self.target.use(pixels)
             self._marks.draw(depth @ camera.view(), pixels)
+        self.target.begin_drawing()
 
     def _edit_by_gizmo(self, document: Document, shared: Shared, rect: view.Rect) -> bool:
         """Let the mouse move or size the chosen seed; whether it does."""

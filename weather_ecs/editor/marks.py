@@ -55,6 +55,11 @@ class Sketch:
         rows["center"], rows["size"], rows["color"] = centers, sizes, color
         self._faces.append(rows)
 
+    def add(self, other: Sketch) -> None:
+        """What another one has, as it is now."""
+        self._lines += other._lines
+        self._faces += other._faces
+
     def gathered(self) -> tuple[NDArray, NDArray]:
         """All faces and all lines, in the order in which they came."""
         faces = np.concatenate(self._faces) if self._faces else np.zeros(0, FACE)

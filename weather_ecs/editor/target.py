@@ -39,6 +39,10 @@ class Target:
         self._gl.scissor = None
         return self._framebuffer
 
+    def begin_drawing(self) -> None:
+        """Let the driver draw what it has been given, while widgets are still being made."""
+        gl.glFlush()
+
     def image(self) -> imgui.ImTextureRef:
         """What imgui shows; upside down: see `view.UPRIGHT`."""
         assert self._color is not None, "nothing has been drawn into it"

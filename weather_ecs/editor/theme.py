@@ -87,6 +87,7 @@ def apply() -> None:
     style.frame_rounding = style.grab_rounding = style.tab_rounding = 4.0
     style.popup_rounding = style.child_rounding = style.window_rounding = 5.0
     style.scrollbar_rounding = 6.0
+    style.circle_tessellation_max_error = 0.8  # pixels: a third fewer triangles in a frame
     style.window_title_align = imgui.ImVec2(0.0, 0.5)
     style.hover_stationary_delay = 0.1
     style.font_size_base = SIZE

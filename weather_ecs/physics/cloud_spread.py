@@ -20,40 +20,47 @@ class Spread:
     centers: Floats  # (n, 3) m, of the seeds, weighted
     seed: NDArray[np.intp]  # (n,) the one that each billboard stands in
     weights: Floats | None  # (n, s), rows sum to 1; None: the cloud is too large for them
-    slopes: Floats | None  # (3, n, s), 1/m, rows sum to 0
+    pulls: Floats | None  # (n, s), weights over the squares of the seeds' widths, 1/m^2
+    places: Floats  # (n, 3) m, of the billboards
+    seeds: Floats  # (s, 3) m
 
     @classmethod
     def over(cls, positions: NDArray, seed: NDArray, centers: NDArray, sizes: NDArray) -> Spread:
         """For billboards at positions (n, 3) in the seeds `seed` (n,), boxes (s, 3) each."""
         own = seed.astype(np.intp)
+        p, c = np.asarray(positions, np.float64), np.asarray(centers, np.float64)
+        places, seeds = p.astype(np.float32), c.astype(np.float32)
         if len(positions) * len(centers) > MOST_PAIRS or not len(positions):
-            return cls(centers[own].astype(np.float32), own, None, None)
-        width = np.maximum(WIDTH * 0.5 * sizes.mean(axis=1), 1e-3)
-        # Axis by axis, (3, n, s): numpy is slow where the last axis is short.
-        offset = positions.T[:, :, None] - centers.T[:, None, :]
-        square = width**2
-        power = (offset[0] ** 2 + offset[1] ** 2 + offset[2] ** 2) * (-0.5 / square)
+            return cls(seeds[own], own, None, None, places, seeds)
+        square = np.maximum(WIDTH * 0.5 * np.asarray(sizes).mean(axis=1), 1e-3) ** 2
+        # |p - c|^2 by one product of matrices; doubles, for what cancels out.
+        away = p @ (-2.0 * c.T)
+        away += (p * p).sum(axis=1)[:, None] + (c * c).sum(axis=1)
+        away *= -0.5 / square
         # A small share of its own seed, so that a billboard far from all of them has a value too.
-        weights = np.exp(np.maximum(power, -60.0))
+        weights = np.clip(away, -60.0, 0.0).astype(np.float32)
+        np.exp(weights, out=weights)
         weights[np.arange(len(own)), own] += 0.05
         weights /= weights.sum(axis=1, keepdims=True)
-        mixed = (weights @ centers).astype(np.float32)
-        offset *= -1.0 / square
-        offset *= weights
-        slopes = np.empty(offset.shape, np.float32)
-        for pull, slope in zip(offset, slopes, strict=True):
-            np.subtract(
-                pull, weights * pull.sum(axis=1, keepdims=True), out=slope, casting="unsafe"
-            )
-        return cls(mixed, own, weights.astype(np.float32), slopes)
+        pulls = weights * (1.0 / square).astype(np.float32)
+        return cls(weights @ seeds, own, weights, pulls, places, seeds)
 
     def field(self, values: NDArray) -> Floats:
         """(n, 4): the values (s,) at the billboards, and the slopes along x, y and z per m."""
         found = np.zeros((len(self.seed), 4), np.float32)
         values = np.asarray(values, np.float32)
-        if self.weights is None or self.slopes is None:
+        if self.weights is None or self.pulls is None:
             found[:, 0] = values[self.seed]
             return found
         found[:, 0] = self.weights @ values
-        found[:, 1:] = (self.slopes @ values).T
+        # The gradient of the weighted mean: what pulls towards a seed does so with its value less
+        # that mean. Values are taken from their own mean first, so that little cancels out.
+        middle = np.float32(values.mean())
+        parts = np.empty((len(values), 8), np.float32)
+        parts[:, 0], parts[:, 1:4] = 1.0, self.seeds
+        parts[:, 4:] = parts[:, :4] * (values - middle)[:, None]
+        sums = self.pulls @ parts
+        pull = sums[:, 1:4] - self.places * sums[:, :1]
+        drawn = sums[:, 5:] - self.places * sums[:, 4:5]
+        found[:, 1:] = drawn - pull * (found[:, :1] - middle)
         return found

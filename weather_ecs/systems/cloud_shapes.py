@@ -94,7 +94,8 @@ class ShapeLibrary:
             self._unlit.pop(self._shapes.pop(key).key, None)
         left = {key[:3] for key in self._shapes}
         self._made = {key: made for key, made in self._made.items() if key in left}
-        self._prints = {}
+        models = {id(each.model) for each in self._shapes.values()}
+        self._prints = {key: known for key, known in self._prints.items() if key in models}
 
     def light_new(self, each: Shape, light: Vector) -> None:
         """Light a new shape; a very large one by its outline only, until its turn comes."""
