@@ -68,10 +68,16 @@ def cut(mesh: Mesh) -> Pieces:
     return Pieces(triangles, np.stack([starts, counts], 1) * 3, lows, highs)
 
 
-def frustum_planes(view_projection: NDArray) -> NDArray:
-    """(5, 4) planes whose positive side is seen: left, right, bottom, top, near; normals unit."""
-    m = view_projection
-    planes = np.stack([m[3] + m[0], m[3] - m[0], m[3] + m[1], m[3] - m[1], m[3] + m[2]])
+def frustum_planes(
+    view_projection: NDArray, frame: tuple[float, float, float, float] = (-1.0, -1.0, 1.0, 1.0)
+) -> NDArray:
+    """(5, 4) planes whose positive side is seen: left, right, bottom, top, near; normals unit.
+
+    frame: left, bottom, right, top of the picture's part that counts, -1 to 1.
+    """
+    m, (left, bottom, right, top) = view_projection, frame
+    sides = m[0] - left * m[3], right * m[3] - m[0], m[1] - bottom * m[3], top * m[3] - m[1]
+    planes = np.stack([*sides, m[3] + m[2]])
     return planes / np.linalg.norm(planes[:, :3], axis=1, keepdims=True)
 
 

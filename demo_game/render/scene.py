@@ -17,6 +17,7 @@ from .frame_block import FrameBlock, as_matrix, unit
 from .ground import Ground
 from .ground_shadow import GroundShadow
 from .meadow import Meadow
+from .openings import NOTHING, WHOLE, Frame, Openings
 from .programs import release_all, scissor, set_uniforms
 from .quality import level
 from .shadows import Shadows
@@ -49,6 +50,7 @@ class SceneRenderer:
         self._water = Water(ctx, self._block, place)
         self._pools = LampPools(ctx, self._block, place)
         self._halos = Halos(ctx, self._block, place)
+        self._openings = Openings(place)
         table = paint.detail()
         self._detail = ctx.texture((table.shape[1], table.shape[0]), 4, table.tobytes())
         self._detail.build_mipmaps()
@@ -95,7 +97,9 @@ class SceneRenderer:
         viewport = target.viewport
         v, p = as_matrix(view), as_matrix(projection)
         camera = self._block.camera(v, p)
+        frame = self._openings.frame(camera, p @ v)
         planes = geometry.frustum_planes(p @ v)
+        outside = geometry.frustum_planes(p @ v, frame)
         sun = unit(environment.sun_direction)
         self.ctx.wireframe = False
         lit = self._choose(environment.defines)
@@ -119,9 +123,18 @@ class SceneRenderer:
         scissor(target, None)
         target.depth_mask = True
         target.clear(0.0, 0.0, 0.0, 1.0, viewport=viewport)
-        self._draw_solid(planes, camera, environment)
-        if environment.draws_sky:
-            self._sky.draw(v, p, sun)
+        self._bind_maps()
+        self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        self.ctx.depth_func, self.ctx.front_face, self.ctx.cull_face = "<=", "ccw", "back"
+        self._statics.draw(planes, outside, camera)
+        self._actors.draw(planes, camera)
+        if frame != NOTHING:
+            if frame != WHOLE:  # llvmpipe pays for what is hidden too
+                scissor(target, _pixels(frame, viewport))
+            self._draw_open(outside, camera, environment)
+            if environment.draws_sky:
+                self._sky.draw(v, p, sun)
+            scissor(target, None)
         self._draw_blended(target, v, planes, camera, environment.ripples)
 
     def _choose(self, defines: tuple[str, ...]) -> list[moderngl.Program]:
@@ -163,13 +176,9 @@ class SceneRenderer:
         self._ground.map.use(MEADOW_UNIT)
         self._sky.map.use(SKY_UNIT)
 
-    def _draw_solid(self, planes: NDArray, camera: NDArray, environment: Environment) -> None:
+    def _draw_open(self, planes: NDArray, camera: NDArray, environment: Environment) -> None:
+        """What grows, and the ground."""
         ctx, quality = self.ctx, self._quality
-        self._bind_maps()
-        ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        ctx.depth_func, ctx.front_face, ctx.cull_face = "<=", "ccw", "back"
-        self._statics.draw(planes, camera)
-        self._actors.draw(planes, camera)
         ctx.disable(moderngl.CULL_FACE)
         self._meadow.draw(planes, camera, quality)
         self._flag.draw(planes, camera)
@@ -216,3 +225,12 @@ class SceneRenderer:
         release_all((self._trees, self._actors, self._statics))
         release_all((self._ground_shadow, self._ground))
         release_all((self._shadows, self._sky, self._detail, self._block))
+
+
+def _pixels(frame: Frame, viewport: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
+    """(x, y, width, height) of a part of a picture, rounded outwards."""
+    x, y, width, height = viewport
+    scale = 0.5 * np.array([width, height])
+    low = np.floor((np.array(frame[:2]) + 1.0) * scale).astype(int)
+    size = np.ceil((np.array(frame[2:]) + 1.0) * scale).astype(int) - low
+    return x + int(low[0]), y + int(low[1]), int(size[0]), int(size[1])

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from demo_game.place import Place
-from demo_game.place.mesh import merge
+from demo_game.place.mesh import Mesh, merge
 
 from . import geometry
 from .frame_block import FrameBlock
@@ -25,6 +27,17 @@ PARTS = 12
 ACTOR_REACH = 120.0  # m
 
 
+def ordered(mesh: Mesh, name: str) -> Mesh:
+    """The room from its middle outwards, the cabin inwards: what is drawn first hides the rest."""
+    if name not in ("room", "cabin"):
+        return mesh
+    low, high = mesh.bounds
+    middle, half = (low + high) * 0.5, (high - low) * 0.5
+    away = np.abs((mesh.vertices[mesh.indices].mean(1) - middle) / half).max(1)
+    order = np.argsort(away if name == "room" else -away, kind="stable")
+    return replace(mesh, indices=mesh.indices[order])
+
+
 class Statics:
     """All static meshes in one buffer, in pieces."""
 
@@ -35,7 +48,7 @@ class Statics:
         for name, mesh in place.meshes.items():
             if mesh.dynamic:
                 continue
-            pieces = geometry.cut(mesh)
+            pieces = geometry.cut(ordered(mesh, name))
             vertices.append(geometry.pack(mesh))
             indices.append(pieces.indices + np.uint32(vertex_count))
             ranges.append(pieces.ranges + (index_count, 0))
@@ -52,6 +65,7 @@ class Statics:
         self._reach = np.concatenate(reach)
         self._names, self._hidden = np.array(names), np.zeros(len(names), bool)
         cabin = np.array([n.startswith(("cabin", "room", "letter")) for n in names])
+        self._cabin = cabin
         low, high = self._low[cabin].min(0), self._high[cabin].max(0)  # all change at once
         self._switch = (
             np.where(cabin[:, None], low, self._low),
@@ -70,10 +84,12 @@ class Statics:
         bare = (self._vertices, "3f4 16x1", "in_position")
         self._shadow_array = ctx.vertex_array(self.shadow, [bare], self._indices)
 
-    def draw(self, planes: NDArray, camera: NDArray) -> None:
-        """Draw what is seen, near to far."""
+    def draw(self, planes: NDArray, outside: NDArray, camera: NDArray) -> None:
+        """Draw what is seen, near to far; `outside`: planes of where more than the cabin is."""
         away = geometry.box_distance(camera, self._low, self._high)
-        seen = geometry.boxes_seen(planes, self._low, self._high)
+        seen = geometry.boxes_seen(outside, self._low, self._high)
+        if outside is not planes:
+            seen |= self._cabin & geometry.boxes_seen(planes, self._low, self._high)
         switch = geometry.box_distance(camera, *self._switch)
         seen &= (switch >= self._reach[:, 0]) & (switch < self._reach[:, 1])
         chosen = np.flatnonzero(seen & ~self._hidden)
