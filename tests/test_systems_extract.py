@@ -6,12 +6,16 @@ import esper
 import numpy as np
 import pytest
 
-from tests.worlds import fresh_world
+from tests.cloud_worlds import model
 from weather_ecs.components import (
+    Atmosphere,
+    Cloud,
+    Fog,
     Occluder,
     PointLight,
     RainArea,
     RainContainer,
+    RainGauge,
     RippleSurface,
     Sun,
     Wind,
@@ -19,13 +23,9 @@ from weather_ecs.components import (
 from weather_ecs.frame import DropLook, SkyLight
 from weather_ecs.systems import ExtractSystem, WeatherState
 
+pytestmark = pytest.mark.usefixtures("world")
+
 CORNERS, TRIANGLE = np.eye(3), [0, 1, 2]
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 @pytest.fixture
@@ -125,6 +125,45 @@ def test_a_change_is_seen_without_a_process(state, change):
     same = len(before.areas) == len(after.areas) and np.array_equal(before.areas, after.areas)
     assert not same or before.wind != after.wind
     assert before.areas["rain_rate"].tolist() == [5.0]  # a frame, once out, stays as it was
+
+
+@pytest.mark.parametrize(
+    ("change", "shown"),
+    [
+        (lambda: esper.create_entity(Atmosphere(time=1.7e9)), lambda frame: frame.sky),
+        (lambda: esper.component_for_entity(1, Fog).__setattr__("depth", 7.0), lambda f: f.fog),
+        (lambda: esper.delete_entity(1), lambda frame: frame.fog),
+        (lambda: esper.create_entity(RainGauge((1, 2, 3))), lambda frame: len(frame.gauges)),
+        (
+            lambda: esper.create_entity(Cloud(model("boxy"), (0, 900, 0))),
+            lambda frame: len(frame.clouds),
+        ),
+        (lambda: esper.create_entity(Occluder(CORNERS, TRIANGLE)), lambda f: len(f.occluders)),
+    ],
+)
+def test_a_look_later_in_a_frame_sees_what_has_changed(state, change, shown):
+    state.drawn = True
+    esper.create_entity(Fog())
+    system = ExtractSystem()
+    before = system.frame(state)
+    assert system.frame(state) is before
+    change()
+    after = system.frame(state)
+    assert shown(after) != shown(before)
+    assert system.frame(state) is after
+
+
+def test_a_second_look_in_a_frame_costs_little(state, monkeypatch):
+    esper.create_entity(Atmosphere(time=1.7e9))
+    system = ExtractSystem()
+    asked = []
+    monkeypatch.setattr(system._daylight, "update", lambda state: asked.append(state))
+    for _ in range(3):
+        system.frame(state)
+    assert len(asked) == 1
+    system.run(state)
+    system.frame(state)
+    assert len(asked) == 2
 
 
 def test_moving_areas_are_carried_on_by_the_remainder(state):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from operator import is_
 from typing import Any
 
@@ -11,10 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.components import (
+    SNAPSHOT_COMPONENTS,
     Air,
     CollisionHeightmap,
     Fog,
     Lightning,
+    Occluder,
     PointLight,
     RainArea,
     RainContainer,
@@ -25,13 +27,13 @@ from weather_ecs.components import (
     Sun,
     Wind,
 )
+from weather_ecs.components._base import Component
 from weather_ecs.components.cloud_shading import CloudShading
 from weather_ecs.components.collision_heightmap import ALL_LAYERS
 from weather_ecs.frame import (
     AREA_DTYPE,
     LIGHT_DTYPE,
     AirData,
-    CloudLook,
     DropLook,
     FogData,
     FrameData,
@@ -49,8 +51,16 @@ from weather_ecs.systems.atmosphere import Daylight
 from weather_ecs.systems.cloud_list import CloudList
 from weather_ecs.systems.gauge import GaugeList
 from weather_ecs.systems.lightning import settings_of
+from weather_ecs.systems.looks import (
+    cloud_look,
+    drop_look,
+    heightmap_look,
+    snow_look,
+    splash_look,
+    sun_light,
+)
 from weather_ecs.systems.occluders import OccluderList
-from weather_ecs.systems.queries import alive
+from weather_ecs.systems.queries import alive, leaving
 from weather_ecs.systems.rain_area import area_rows, drift_velocity, dry_spells
 from weather_ecs.systems.ripples import RippleList
 from weather_ecs.systems.state import WeatherState
@@ -72,10 +82,7 @@ _KINDS = (
     CloudShading,
     Lightning,
 )
-_LOOK = tuple(item.name for item in fields(DropLook))
-_CLOUDS = tuple(item.name for item in fields(CloudLook))
-_FLAKES = tuple(item.name for item in fields(SnowLook))
-_SPLASH = tuple(item.name for item in fields(SplashLook))
+_ALL: tuple[type[Component], ...] = (*SNAPSHOT_COMPONENTS.values(), Occluder, RainGauge)
 _NO_AREAS = empty(AREA_DTYPE)
 _NO_LIGHTS = empty(LIGHT_DTYPE)
 
@@ -113,6 +120,7 @@ class ExtractSystem:
         self._clouds = CloudList()
         self._strikes, self._lightning, self._brightness = StrikeList(), LightningLook(), 0.0
         self._time = -1.0
+        self._seen: tuple[Any, ...] = ()  # what the last frame was made of
 
     @property
     def gauges(self) -> dict[int, RainGauge]:
@@ -126,10 +134,32 @@ class ExtractSystem:
 
     def run(self, state: WeatherState) -> None:
         """A new frame is due."""
-        self._time = -1.0
+        self._time, self._seen = -1.0, ()
 
     def frame(self, state: WeatherState) -> FrameData:
         """The weather now; the same object as before where nothing has changed."""
+        seen = self._look(state)
+        if seen == self._seen and self._frame is not None:
+            return self._frame
+        frame = self._extract(state)
+        self._seen = self._look(state)  # new clouds may have been lit
+        return frame
+
+    def _look(self, state: WeatherState) -> tuple[Any, ...]:
+        """All that can change between two looks in a frame; a game may take many."""
+        lists: list[Any] = [esper.get_component(kind) for kind in _ALL]
+        fronts, clock = state.fronts, state.clock
+        return (
+            [kind._revision[0] for kind in _ALL],
+            clock.steps,
+            clock.remainder,
+            leaving(entity for pairs in lists for entity, _ in pairs),
+            (fronts.number, fronts.revision, state.cloud_shapes.version),
+            (state.clouds, state.course, state.drawn),
+            lists,
+        )
+
+    def _extract(self, state: WeatherState) -> FrameData:
         lists = tuple([esper.get_component(kind) for kind in _KINDS])
         revisions = tuple([kind._revision[0] for kind in _KINDS])
         if (
@@ -213,7 +243,7 @@ class ExtractSystem:
         """The atmosphere has another light, or there is one no more."""
         self._light = light = self._daylight.light
         state.light_direction = None if light is None else light.sun_direction
-        self._parts = (self._parts[0], light or _sky(state), self._parts[2])
+        self._parts = (self._parts[0], light or sun_light(state), self._parts[2])
         self._fog = fog_data(state, self._parts[1])
         self._frame = None
 
@@ -233,15 +263,15 @@ class ExtractSystem:
             (lamp.position, lamp.color, lamp.reach) for _, lamp in alive(PointLight, state.uids)
         ]
         lights = _frozen(lamps, LIGHT_DTYPE) if lamps else _NO_LIGHTS
-        self._parts = (lights, self._light or _sky(state), _look(state))
+        self._parts = (lights, self._light or sun_light(state), drop_look(state))
         self._air, self._fog = air_data(state), fog_data(state, self._parts[1])
         own = settings_of(state)
         self._lightning, self._brightness = look_of(own), own.brightness
-        self._splash = _splash(state)
-        self._flakes = _flakes(state)
-        self._cloud_look = _cloud_look(state)
+        self._splash = splash_look(state)
+        self._flakes = snow_look(state)
+        self._cloud_look = cloud_look(state)
         self._ripples.collect(state)
-        self._heightmap, self._layers = _heightmap(state)
+        self._heightmap, self._layers = heightmap_look(state)
         self._entities = [
             pair[0]
             for kind in _KINDS
@@ -254,42 +284,3 @@ def _frozen(rows: list[tuple[Any, ...]], dtype: np.dtype) -> NDArray:
     array = np.array(rows, dtype)
     array.setflags(write=False)
     return array
-
-
-def _sky(state: WeatherState) -> SkyLight:
-    for _, sun in alive(Sun, state.uids):
-        return SkyLight(
-            sun.direction, sun.color, sun.zenith_color, sun.horizon_color, sun.ground_color
-        )
-    return SkyLight()
-
-
-def _look(state: WeatherState) -> DropLook:
-    for _, container in alive(RainContainer, state.uids):
-        return DropLook(*[getattr(container, name) for name in _LOOK])
-    return DropLook()
-
-
-def _flakes(state: WeatherState) -> SnowLook:
-    for _, flakes in alive(SnowFlakes, state.uids):
-        return SnowLook(*[getattr(flakes, name) for name in _FLAKES])
-    return SnowLook()
-
-
-def _cloud_look(state: WeatherState) -> CloudLook:
-    for _, shading in alive(CloudShading, state.uids):
-        return CloudLook(*[getattr(shading, name) for name in _CLOUDS])
-    return CloudLook()
-
-
-def _splash(state: WeatherState) -> SplashLook | None:
-    for _, emitter in alive(SplashEmitter, state.uids):
-        return SplashLook(*[getattr(emitter, name) for name in _SPLASH])
-    return None
-
-
-def _heightmap(state: WeatherState) -> tuple[HeightmapLook, int]:
-    """The look, and the layers that stop the rain."""
-    for _, it in alive(CollisionHeightmap, state.uids):
-        return HeightmapLook(it.resolution, it.extent), it.layers
-    return HeightmapLook(), ALL_LAYERS
