@@ -6,20 +6,25 @@ import pyglet
 
 from demo_game.ui.theme import Layer
 
-STRIPS = 14  # that it fades out in, on either side
-STRIP = 5.0  # units
+STRIPS = 32  # that it fades out in, on either side
+STRIP = 2.2  # units
 
 
-def add_band(layer: Layer, height: float) -> float:
-    """Put a band of so many units in the window's middle; returns its lower edge in px."""
+def add_band(layer: Layer, height: float, at: float = 0.5) -> float:
+    """Put a band of so many units across the window; returns its lower edge in px.
+
+    at: where its middle is, a share of the window's height.
+    """
     frame = layer.frame
-    band, strip = frame.px(height), frame.px(STRIP)
-    base = float(round(frame.height * 0.5 - band / 2))
+    # Whole pixels: strips that share one would show as lines.
+    band, strip = float(round(frame.px(height))), float(max(round(frame.px(STRIP)), 1))
+    base = float(max(round(frame.height * at - band / 2), 0))
     _strip(layer, base, band, 1.0)
     for index in range(STRIPS):
         share = (1.0 - (index + 0.5) / STRIPS) ** 1.5
         _strip(layer, base + band + index * strip, strip, share)
-        _strip(layer, base - (index + 1) * strip, strip, share)
+        if base > index * strip:
+            _strip(layer, base - (index + 1) * strip, strip, share)
     return base
 
 
