@@ -404,6 +404,9 @@ def test_the_script_of_the_figure(tmp_path: Path, capsys: pytest.CaptureFixture[
     f, level = plot_sound.thirds(tone)
     assert f[level.argmax()] == pytest.approx(1000.0, rel=0.13)
     assert level.max() == pytest.approx(20.0 * np.log10(tone.std()), abs=0.01)
+    far, told, heard = plot_sound.delay(680.0)
+    assert far == pytest.approx(680.0, abs=1.0)
+    assert 2.0 <= told <= 2.1 and heard == pytest.approx(2.0, abs=0.01)
     kept = ROOT / "docs" / "images" / "sound.png"
     assert kept.stat().st_size < 300_000
 
