@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.physics.camera import wrap_angle
-from weather_ecs.physics.ellipse import line_intersections, nearest_perimeter_point
+from weather_ecs.physics.ellipse_point import line_crossings, nearest_point
 from weather_ecs.physics.lod import own_reach, radial_positions, rim_fade, size_factor, weight_shape
 
 __all__ = [
@@ -209,8 +209,7 @@ def _nearest(area: Area, at: tuple[float, float]) -> tuple[bool, tuple[float, fl
     u, w = (dx * c - dz * s) / area.radii[0], (dx * s + dz * c) / area.radii[1]
     if u * u + w * w < 1.0:
         return True, at, 0.0
-    found = nearest_perimeter_point(at, area.center, area.radii, area.heading)
-    point = (float(found[0]), float(found[1]))
+    point = nearest_point(at, area.center, area.radii, area.heading)
     return False, point, math.hypot(point[0] - at[0], point[1] - at[1])
 
 
@@ -245,9 +244,9 @@ def _fit(
     if half < 0.5 * math.pi:
         for side in (-half, half):
             ray = (math.cos(view_heading + side), -math.sin(view_heading + side))
-            for hit in line_intersections(at, ray, area.center, area.radii, area.heading):
+            for hit in line_crossings(at, ray, area.center, area.radii, area.heading):
                 if (hit[0] - at[0]) * ray[0] + (hit[1] - at[1]) * ray[1] > 0.0:
-                    candidates.append((float(hit[0]), float(hit[1])))
+                    candidates.append(hit)
         lines = candidates[1:]
         candidates = [*candidates, *_extremes(area, n, t)]
         candidates = [
