@@ -25,6 +25,7 @@ KEPT_DTYPE = np.dtype(
         ("share", "f4"),  # of the newer picture
         ("quad", "f8", (3, 3)),  # middle from the cloud's position, half width, half height, m
         ("old_quad", "f8", (3, 3)),
+        ("cuts", "f4", 4),  # of the picture's corners, as PictureBounds has them
         ("way", "f8", 3),  # from the camera to the cloud, when it was taken
         ("version", "i8"),  # of the shape's absorption
         ("shape", "i8"),  # the shape's key
@@ -214,7 +215,7 @@ class Impostors:
         matrix[3, :3] = way
         far = scene.away[index]
         kept["quad"][index] = (far * (mx * right + my * up), far * hx * right, far * hy * up)
-        kept["way"][index] = way
+        kept["cuts"][index], kept["way"][index] = bounds.cuts, way
         kept["pixels"][index], kept["need"][index] = scene.pixels[index], need
         kept["version"][index], kept["shape"][index] = shape.versions, shape.data.key
         kept["stamp"][index] = self._stamp
@@ -224,9 +225,9 @@ class Impostors:
     def quads(
         self, scene: CloudScene, which: NDArray[np.intp], haze: NDArray[np.float32]
     ) -> NDArray[np.float32]:
-        """(m, 8, 4) as shaders/cloud_quad.vert reads them; haze (m, 4)."""
+        """(m, 9, 4) as shaders/cloud_quad.vert reads them; haze (m, 4)."""
         kept = self.kept[which]
-        rows = np.zeros((len(which), 8, 4), np.float32)
+        rows = np.zeros((len(which), 9, 4), np.float32)
         center = scene.center[which]
         rows[:, :3, :3] = kept["quad"]
         rows[:, 0, :3] += center
@@ -235,9 +236,11 @@ class Impostors:
         rows[:, 2, 3] = scene.clouds["flash"][which]
         rows[:, 3] = self._frames(kept["tile"])[:, (0, 1, 2, 2)]
         rows[:, 4] = haze
-        rows[:, 5:, :3] = kept["old_quad"]
+        rows[:, 5:8, :3] = kept["old_quad"]
         rows[:, 5, :3] += center
-        rows[:, 5:, 3] = self._frames(kept["old_tile"])
+        rows[:, 5:8, 3] = self._frames(kept["old_tile"])
+        # The older picture may show something where the newer one has nothing.
+        rows[:, 8] = np.where(kept["share"][:, None] < 1.0, 2.0, kept["cuts"])
         return rows
 
     def _frames(self, tiles: NDArray) -> NDArray[np.float64]:

@@ -57,7 +57,7 @@ def make_kit(ctx: moderngl.Context, shaders: ShaderLoader) -> CloudKit:
             kept(CloudPrograms(ctx, shaders)),
             kept(CloudStream(ctx)),
             kept(RowTexture(ctx, 6)),
-            kept(RowTexture(ctx, 8)),
+            kept(RowTexture(ctx, 9)),
             kept(CloudRays(ctx, shaders, UNITS)),
             kept(CloudInside(ctx, shaders)),
             kept(CloudCanvases(ctx, shaders)),

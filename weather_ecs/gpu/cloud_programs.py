@@ -80,10 +80,7 @@ class CloudPrograms:
         """Draw a stretch of the stream, or of the rows of pictures."""
         if end > begin:
             self._programs[kind]["cloud_first"] = begin
-            corners = 8 if kind in (BILLBOARDS, SOFT) else 4
-            self._arrays[kind].render(
-                moderngl.TRIANGLE_STRIP, vertices=corners, instances=end - begin
-            )
+            self._arrays[kind].render(moderngl.TRIANGLE_STRIP, vertices=8, instances=end - begin)
 
     def light(self, view: ViewData, light: Surround) -> None:
         """Fill and bind the block for a view."""

@@ -12,6 +12,7 @@ Array = NDArray[np.float64]
 
 FADE = 0.3  # of the growth, over which one billboard comes or goes
 NEAR = (0.20, 0.75)  # widths from the camera, between which a billboard fades
+SQUARE = ((-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0))  # corners of the whole image
 
 
 def smoothstep(low: float, high: float, value: ArrayLike) -> Array:
@@ -44,13 +45,23 @@ def shown_size(size: Array, scale: float, present: ArrayLike) -> Array:
     return shown
 
 
-def corners(at: Array, size: Array, turn: Array, mirror: ArrayLike, heading: ArrayLike) -> Array:
-    """(n, 4, 3) offsets of the corners of billboards at (n, 3) from the camera.
+def corners(
+    at: Array,
+    size: Array,
+    turn: Array,
+    mirror: ArrayLike,
+    heading: ArrayLike,
+    outline: ArrayLike = SQUARE,
+) -> Array:
+    """(n, k, 3) offsets of the corners of billboards at (n, 3) from the camera.
 
     Each stands for an ellipsoid as deep as it is wide: the image lies level for a viewer below and
     turns up towards one at its own height. size (n, 2); turn (n,) rad in the image's plane.
+    outline: (k, 2), or (n, k, 2), of the image, -1 to 1.
     """
-    mirror, heading = np.asarray(mirror, np.float64), np.asarray(heading, np.float64)
+    c, s = np.cos(turn)[:, None], np.sin(turn)[:, None]
+    flip = np.asarray(mirror, np.float64).reshape(-1, 1)
+    heading = np.asarray(heading, np.float64).reshape(-1, 1)
     way = at / np.maximum(np.linalg.norm(at, axis=1, keepdims=True), 1e-3)
     level = np.hypot(way[:, 0], way[:, 2])
     flat = level > 1e-4
@@ -60,18 +71,14 @@ def corners(at: Array, size: Array, turn: Array, mirror: ArrayLike, heading: Arr
     right = np.stack([-ahead[:, 1], np.zeros(len(at)), ahead[:, 0]], axis=1)
     up = np.cross(right, way)
     height = np.hypot(size[:, 1] * level, size[:, 0] * way[:, 1])
-    found = np.empty((len(at), 4, 3))
-    for k in range(4):
-        cx, cy = (k & 1) * 2.0 - 1.0, (k >> 1) * 2.0 - 1.0
-        x = (cx * np.cos(turn) - cy * np.sin(turn)) * mirror
-        z = cx * np.sin(turn) + cy * np.cos(turn)
-        wx = x * np.cos(heading) + z * np.sin(heading)
-        wz = z * np.cos(heading) - x * np.sin(heading)
-        across = wx * right[:, 0] + wz * right[:, 2]
-        along = -(wx * ahead[:, 0] + wz * ahead[:, 1])
-        found[:, k] = 0.5 * (
-            right * (across * size[:, 0])[:, None] + up * (along * height)[:, None]
-        )
+    outline = np.asarray(outline, np.float64)
+    cx, cy = outline[..., 0], outline[..., 1]
+    x, z = (cx * c - cy * s) * flip, cx * s + cy * c
+    wx = x * np.cos(heading) + z * np.sin(heading)
+    wz = z * np.cos(heading) - x * np.sin(heading)
+    across = (wx * right[:, :1] + wz * right[:, 2:]) * (0.5 * size[:, :1])
+    along = (wx * ahead[:, :1] + wz * ahead[:, 1:]) * (-0.5 * height[:, None])
+    found: Array = right[:, None] * across[..., None] + up[:, None] * along[..., None]
     return found
 
 

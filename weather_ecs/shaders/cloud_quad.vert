@@ -1,5 +1,6 @@
-// Impostors: pictures of whole clouds, each on the plane it was taken on.
-uniform sampler2D cloud_quads;  // eight texels each
+// Impostors: pictures of whole clouds, each on the plane it was taken on; octagons, as what is empty
+// costs as much as the rest.
+uniform sampler2D cloud_quads;  // nine texels each
 uniform int cloud_first;
 uniform mat4 cloud_matrix;
 
@@ -25,7 +26,12 @@ void main()
     vs_haze = texelFetch(cloud_quads, ivec2(4, row), 0);
     vs_haze.rgb *= vs_haze.w;
     vs_share = vec2(a.w, b.w);
-    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    // Strip of an octagon: 0 1 7 2 6 3 5 4; two of its corners for each of the rectangle's.
+    int side = (gl_VertexID & 1) == 1 ? (gl_VertexID + 1) >> 1 : (8 - (gl_VertexID >> 1)) & 7;
+    int quarter = side >> 1;
+    float cut = texelFetch(cloud_quads, ivec2(8, row), 0)[quarter] - 1.0;
+    vec2 corner = ((side ^ quarter) & 1) == 0 ? vec2(1.0, cut) : vec2(cut, 1.0);
+    corner *= vec2(quarter == 0 || quarter == 3 ? 1.0 : -1.0, quarter < 2 ? 1.0 : -1.0);
     vec3 p = a.xyz + b.xyz * corner.x + c.xyz * corner.y;
 #ifdef FLASHES
     vs_from = p;

@@ -1,0 +1,52 @@
+"""What part of the view a cloud's picture takes up: no more than shows of the cloud."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import moderngl
+import numpy as np
+import pytest
+
+from tests.cloud_stage import CloudStage, cloud_stage, clouds, shape, sky_frame, view_of
+from weather_ecs.gpu.cloud_bounds import picture_bounds
+from weather_ecs.gpu.cloud_scene import scene_of
+
+SLANTED = ((-300.0, -150.0, 0.0), (0.0, 0.0, 0.0), (300.0, 150.0, 0.0))
+FAR = {"position": (0.0, 500.0, -2000.0)}
+
+
+@pytest.fixture
+def stage(ctx: moderngl.Context) -> Iterator[CloudStage]:
+    with cloud_stage(ctx) as made:
+        yield made
+
+
+def test_a_picture_s_corners_are_cut_where_nothing_shows(stage: CloudStage) -> None:
+    frame = sky_frame(clouds({**FAR, "growth": 0.8}), shape(centers=SLANTED, billboards=20))
+    for _ in range(40):
+        cut = stage.draw(frame, pitch=0.25, dt=0.1)
+    assert stage.renderer.stats["cloud_billboards"] == 0
+    kept = stage.passes.impostors().kept
+    # It rises from left to right, or falls: two corners are empty.
+    assert np.sort(kept["cuts"][0])[:2].max() < 1.6
+    kept["cuts"][:] = 2.0
+    whole = stage.draw(frame, pitch=0.25)
+    assert (stage.cover(whole) > 0.02).mean() > 0.01
+    assert np.abs(whole - cut).max() < 1.5 / 255.0
+
+
+def test_a_picture_is_only_as_large_as_what_shows(stage: CloudStage) -> None:
+    data = shape(centers=SLANTED, billboards=20)
+    data.billboards["order"][:20] = np.linspace(0.0, 0.3, 20)
+    data.billboards["order"][20:] = np.linspace(0.6, 1.0, 40)
+    sizes = []
+    for growth in (1.0, 0.35):
+        frame = sky_frame(clouds({**FAR, "growth": growth}), data)
+        stage.draw(frame, pitch=0.25)
+        scene = scene_of(view_of(frame, pitch=0.25), stage.passes.store, 108)
+        bounds = picture_bounds(scene, stage.passes.store.shapes[0], 0)
+        sizes.append(bounds.half)
+        assert all(0.0 < cut <= 2.0 for cut in bounds.cuts)
+    assert sizes[1][0] < 0.6 * sizes[0][0]
+    assert sizes[1][1] < 0.8 * sizes[0][1]
