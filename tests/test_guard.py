@@ -125,6 +125,24 @@ def test_everything_is_put_back(
     assert differences(before, read_state(gl)) == {}
 
 
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.usefixtures("default_state")
+def test_filling_buffers_alone_changes_nothing(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep, seed: int
+) -> None:
+    Host(ctx, gl, keep, seed).scramble()
+    before = read_state(gl)
+    with guard.for_buffers():
+        buffer = ctx.buffer(reserve=64, dynamic=True)
+        buffer.orphan()
+        buffer.write(b"x" * 64)
+    assert differences(before, read_state(gl)) == {}
+    buffer.release()
+    guard.release()
+    with pytest.raises(ContextError, match="released"), guard.for_buffers():
+        pytest.fail("entered after release")
+
+
 @pytest.mark.usefixtures("default_state")
 def test_the_baseline_does_not_depend_on_the_host(
     ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import TracebackType
 from typing import Any
 
@@ -91,11 +93,14 @@ class StateGuard:
         if self._depth == 0:
             self._exit()
 
-    def _enter(self) -> None:
+    def _check(self) -> None:
         if self._scope is None:
             raise ContextError("the state guard was released")
         if not self.gl.is_current():
             raise ContextError("the weather's OpenGL context is not current in this thread")
+
+    def _enter(self) -> None:
+        self._check()
         if self._slots < slot_count():
             self._state = self._make_state()
         self._state.save()
@@ -138,6 +143,19 @@ class StateGuard:
         mglo.depth_mask = depth_mask
         ctx.fbo, ctx.mglo.fbo = fbo, bound
         self._state.restore()
+
+    @contextmanager
+    def for_buffers(self) -> Iterator[None]:
+        """In place of `with guard:` where buffers are made and filled, and nothing else is done.
+
+        moderngl binds them all at one place, so one value is kept. Raises as `with guard:` does.
+        """
+        self._check()
+        bound = self.gl.get_int(e.ARRAY_BUFFER_BINDING)
+        try:
+            yield
+        finally:
+            self.gl.glBindBuffer(e.ARRAY_BUFFER, bound)
 
     def bind_framebuffer(self) -> None:
         """Draw to the host's framebuffer and viewport again, after drawing somewhere else."""
