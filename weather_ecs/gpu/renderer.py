@@ -152,7 +152,7 @@ class Renderer:
         """
         air = self._airs.get(key)
         if air is None or air.stale(frame, y, rate):
-            with self._guard:
+            with self._guard.for_buffers():
                 if air is None:
                     air = self._airs[key] = WeatherAir(self._ctx)
                 air.fill(frame, y, rate, place)
