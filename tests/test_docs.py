@@ -20,6 +20,7 @@ from weather_ecs.weather import Weather
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 INTEGRATION = (ROOT / "docs" / "integration.md").read_text(encoding="utf-8")
+FOLDERS = ("weather_ecs", "demo_game", "benchmarks", "tests", "tools", "docs")
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 
@@ -27,11 +28,55 @@ def blocks(text: str) -> list[str]:
     return re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
 
 
+def anchors(page: Path) -> set[str]:
+    titles = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.M)
+    return {re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page: Path) -> None:
-    for target in re.findall(r"\]\(([^)#\s]+)\)", page.read_text(encoding="utf-8")):
+    for target in re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8")):
+        path, _, part = target.partition("#")
         if "://" not in target:
-            assert (page.parent / target).exists(), target
+            assert (page.parent / path).exists(), target
+            assert not part or part in anchors(page.parent / path if path else page), target
+
+
+def test_every_page_and_picture_is_linked() -> None:
+    linked = {
+        (page.parent / target.partition("#")[0]).resolve()
+        for page in PAGES
+        for target in re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8"))
+    }
+    there = [*(ROOT / "docs").glob("*.md"), *(ROOT / "docs" / "images").iterdir()]
+    assert not [path.name for path in there if path.resolve() not in linked]
+
+
+@pytest.mark.parametrize("page", PAGES[:1] + PAGES[2:], ids=lambda page: page.name)
+def test_named_files_are_there(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    for name in re.findall(r"`([\w./]+\.(?:py|glsl|frag|vert|geom|comp|md))`", text):
+        found = [path for folder in FOLDERS for path in (ROOT / folder).rglob(Path(name).name)]
+        assert any(path.as_posix().endswith(f"/{name}") for path in found), name
+
+
+@pytest.mark.parametrize("page", PAGES[:1] + PAGES[2:], ids=lambda page: page.name)
+def test_named_attributes_are_there(page: Path) -> None:
+    """Fields and functions that pages name as `weather.name` or `Component.name`."""
+    known = {name: getattr(components, name) for name in components.__all__} | {"weather": Weather}
+    for owner, name in re.findall(r"`(\w+)\.(\w+)\b", page.read_text(encoding="utf-8")):
+        thing = known.get(owner)
+        if thing is not None and name not in ("glsl", "py"):
+            own = {field.name for field in fields(thing)} if is_dataclass(thing) else set()
+            assert name in own or hasattr(thing, name), f"{owner}.{name}"
+
+
+@pytest.mark.parametrize("page", PAGES[:1] + PAGES[2:], ids=lambda page: page.name)
+def test_named_modules_run(page: Path) -> None:
+    for name in re.findall(r"python -m ([\w.]+)", page.read_text(encoding="utf-8")):
+        if name.split(".")[0] in ("weather_ecs", "demo_game", "benchmarks", "tools"):
+            path = ROOT / name.replace(".", "/")
+            assert path.with_suffix(".py").is_file() or (path / "__main__.py").is_file(), name
 
 
 def test_every_component_is_described() -> None:
