@@ -74,6 +74,15 @@ def test_a_splash_that_stands_for_more_is_larger():
     assert 0.3 < (sizes[2] > 1.0).mean() <= 1.0
 
 
+def test_splashes_grow_with_distance_as_drops_do():
+    away = np.linspace(0.0, 20.0, 200)
+    factor = splash.near_size(away)
+    assert (np.diff(factor) >= 0.0).all() and np.diff(factor).max() < 0.02
+    assert factor[0] == splash.NEAREST and factor[-1] == 1.0
+    # What they are in the picture still falls with distance.
+    assert (np.diff(factor[1:] / away[1:]) < 0.0).all()
+
+
 def test_a_crown_widens_with_the_root_of_its_age():
     x = np.linspace(0.0, 1.0, 11)
     found = splash.growth(x)
@@ -195,9 +204,11 @@ def test_looks_are_those_of_the_oracle(capture: SplashCapture):
     clip = np.column_stack([records["position"], np.ones(len(records))]) @ (
         view.projection @ view.view
     ).T.astype(np.float64)
-    pixels = radius * 0.5 * PICTURE[1] * view.projection[1, 1] / clip[:, 3]
     ray = records["position"] - np.array(view.position)
-    ray /= np.linalg.norm(ray, axis=1, keepdims=True)
+    away = np.linalg.norm(ray, axis=1, keepdims=True)
+    ray /= away
+    radius *= splash.near_size(away[:, 0])
+    pixels = radius * 0.5 * PICTURE[1] * view.projection[1, 1] / clip[:, 3]
     crown, detail = splash.opacities(
         r["weight"], clip[:, 3], pixels, ray[:, 1], LOOK.opacity, LOOK.detail
     )
@@ -291,6 +302,8 @@ def test_crowns_stand_on_the_hit_and_face_the_camera(capture: SplashCapture):
     radius = splash.crown_radius(
         *(records[n].astype(float) for n in ("diameter", "speed", "weight")), records["seed"], one
     ) * splash.growth(np.array(0.5))
+    away = np.linalg.norm(records["position"] - np.array(view.position), axis=1)
+    radius *= splash.near_size(away)
     clip = np.column_stack([records["position"], np.ones(8)]) @ (view.projection @ view.view).T
     foot = clip[:, :2] / clip[:, 3:]
     low, high = found.ndc[..., :2].min(axis=1), found.ndc[..., :2].max(axis=1)

@@ -121,6 +121,25 @@ def test_what_was_hit_has_gone_and_its_splash_with_it(capture: SplashCapture):
     assert len(crowns(capture.quads(records, view_at(), LOOK))) == 20
 
 
+def test_none_shows_through_a_wall(capture: SplashCapture):
+    records = impacts(4, time=100.0 - AGE, weight=FEW)
+    # A wall to x = 0: hits of the map's texels beside it may lie within it.
+    capture.ground(edge=0.0, low=-3.0)
+    records["position"][:, 0] = (-0.2, -0.02, 0.03, 0.25)
+    records["position"][:, 1] = (0.0, 0.0, -3.0, -3.0)
+    view = view_at((0.0, 1.7, 3.0), -0.5)
+    feet = shown(view, records["position"])
+    low, high = (f(crowns(capture.quads(records, view, LOOK)), axis=1) for f in (np.min, np.max))
+    among = [((low[:, :2] <= foot) & (foot <= high[:, :2])).all(axis=1).any() for foot in feet]
+    assert among == [True, True, False, True]
+    # Hits on the far face of a wall, seen from within.
+    capture.ground()
+    records["position"][:] = 0.0
+    records["normal"] = (-0.97, 0.24, 0.0)
+    assert len(crowns(capture.quads(records, view_at((-1.0, 0.4, 3.0), 0.0), LOOK))) == 4
+    assert len(crowns(capture.quads(records, view_at((1.0, 0.4, 3.0), 0.0), LOOK))) == 0
+
+
 def test_no_ceiling_shows_what_is_on_the_roof(capture: SplashCapture):
     records = impacts(30, time=100.0 - AGE, weight=MANY)
     above = capture.quads(records, view_at((0.0, 1.7, 3.0), -0.5), LOOK)

@@ -29,6 +29,8 @@ MOST = 5  # droplets of one splash
 COMPANIONS = 6  # smaller splashes around one, at most
 PLENTY = 3.0  # so many times as many are small as are full-grown
 SCATTER = 0.8  # m that they lie off at most
+NEAREST = 0.7  # factor on the size of a splash NEAR or closer; 1 FAR away
+NEAR, FAR = 1.5, 8.0  # m
 LONGEST = 0.5  # s that a droplet is seen at most
 
 
@@ -79,6 +81,11 @@ def crown_radius(
     """Radius to which a crown opens as it is drawn, m."""
     radius = spread_radius(diameter, speed) * law.size * stature(weight, seed, law)
     return law.largest * -np.expm1(-radius / law.largest)
+
+
+def near_size(away: NDArray) -> FloatArray:
+    """Factor on its size that a splash so many m away has: they grow with distance, as drops do."""
+    return NEAREST + (1.0 - NEAREST) * _smooth(NEAR, FAR, away)
 
 
 def companions(weight: NDArray, seed: NDArray, law: SplashLaw) -> FloatArray:

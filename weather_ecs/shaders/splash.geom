@@ -19,6 +19,16 @@ in float vs_more[];
 
 const float EDGE = 0.08;  // m, of a drop in height that a droplet may fall over
 const float GONE = 0.12;  // m, that a surface may have sunk under a splash; at twice that it is gone
+// m: beside what is so much higher it cannot be told whether a hit is before a wall or within it.
+const float BESIDE = 0.9;
+const float STEEP = 0.5;  // rise of the normal below which what is hit is a wall
+
+// Whether one of the texels around a place at a depth of the map is of something far above it: there
+// a splash would show through the wall.
+bool beside_wall(float depth, vec4 c)
+{
+    return (depth - min(min(c.x, c.y), min(c.z, c.w))) * shelter_size.y > BESIDE;
+}
 
 void film(vec3 at, vec3 n, vec4 form, vec4 color)
 {
@@ -134,11 +144,12 @@ void around(vec4 form, vec4 color)
         vec2 part;
         vec4 c = shelter_corners(m.xy, part);
         float rise = below_corners(m, c, part);
+        if (beside_wall(m.z - rise / shelter_size.y, c)) continue;
         at += rise * vec3(-shelter_fall.x, 1.0, -shelter_fall.y);
         vec3 n = corners_normal(c, part);
         float above = dot(normalize(camera_position.xyz - at), n);
         lift = clamp(40.0 * above, 0.0, 1.0);
-        vec4 own = vec4(off.w, x, 0.0, hash_unit(id));
+        vec4 own = vec4(off.w * near_size(length(at - camera_position.xyz)), x, 0.0, hash_unit(id));
         film(at, n, own, color);
         crown(at, n, own, vec4(color.rgb, color.a * (1.0 - smoothstep(0.55, 0.92, abs(above)))));
     }
@@ -150,8 +161,16 @@ void main()
     if (form.x <= 0.0) return;
     vec3 n = vs_normal[0];
     vec3 m = shelter_place(vs_at[0]);
-    float left = in_shelter_map(m) ? 1.0 - smoothstep(GONE, 2.0 * GONE, -below_surface(m)) : 1.0;
-    lift = clamp(40.0 * dot(normalize(camera_position.xyz - vs_at[0]), n), 0.0, 1.0);
+    float left = 1.0;
+    if (in_shelter_map(m)) {
+        vec2 part;
+        vec4 c = shelter_corners(m.xy, part);
+        if (beside_wall(m.z, c)) return;
+        left -= smoothstep(GONE, 2.0 * GONE, -below_corners(m, c, part));
+    }
+    float above = dot(normalize(camera_position.xyz - vs_at[0]), n);
+    if (n.y < STEEP && above < 0.0) return;
+    lift = clamp(40.0 * above, 0.0, 1.0);
     vec4 color = vs_color[0] * vec4(1.0, 1.0, 1.0, left);
 #ifdef SMALL
     crown(vs_at[0], n, form, color);

@@ -11,6 +11,9 @@ const int MOST = 5;          // droplets of one splash
 const int COMPANIONS = 6;    // most of them that one splash has
 const float PLENTY = 3.0;    // so many times as many are small as are full-grown
 const float SCATTER = 0.8;   // m that they lie off at most
+const float NEAREST = 0.7;  // factor on the size of a splash at NEAR or closer; 1 at FAR
+const float NEAR = 1.5;     // m
+const float FAR = 8.0;
 const float FAINTEST = 0.004;   // opacity below which nothing is drawn
 // Shares of the life from which on the texture of a crown and of a film is empty.
 const float CROWN_LIFE = 0.93;
@@ -23,6 +26,12 @@ float crown_radius(float diameter, float speed, float high)
     float weber = speed * speed * diameter / 0.0728;
     float radius = 0.5e-3 * diameter * pow(weber, 0.25) * splash_look.x * high;
     return splash_look.y * (1.0 - exp(-radius / splash_look.y));
+}
+
+// Factor on its size that a splash so many m away has: they grow with distance, as drops do.
+float near_size(float away)
+{
+    return mix(NEAREST, 1.0, smoothstep(NEAR, FAR, away));
 }
 
 // Factor on its size that a splash is shown with: one that stands for many real ones is large.

@@ -23,12 +23,12 @@ bool splash_seen(Impact i, out Seen s)
     vec4 clip = view_projection * vec4(i.position, 1.0);
     if (clip.w < 0.2) return false;
     s.high = stature(i.weight, i.seed);
-    s.radius = crown_radius(i.diameter, i.speed, s.high);
+    s.ray = i.position - camera_position.xyz;
+    s.away = length(s.ray);
+    s.radius = crown_radius(i.diameter, i.speed, s.high) * near_size(s.away);
     s.pixels = s.radius * camera_position.w / clip.w;
     vec2 margin = (3.0 * s.radius + THROWN) * camera_position.w * 2.0 / view_size.xy;
     if (s.pixels < 0.2 || any(greaterThan(abs(clip.xy), clip.ww + margin))) return false;
-    s.ray = i.position - camera_position.xyz;
-    s.away = length(s.ray);
     s.ray /= s.away;
     float opacity = splash_look.w * min(i.weight * 0.1, 1.0) * smoothstep(0.2, 0.6, clip.w);
     s.x = i.age / splash_look.z;
