@@ -6,8 +6,8 @@ import pyglet
 
 from demo_game.ui.theme import Layer
 
-STRIPS = 32  # that it fades out in, on either side
-STRIP = 2.2  # units
+STRIPS = 80  # that it fades out in, on either side
+STRIP = 0.88  # units; so thin that no single one is seen
 
 
 def add_band(layer: Layer, height: float, at: float = 0.5) -> float:
