@@ -9,18 +9,27 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import moderngl
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.worlds import fresh_world
 from weather_ecs.gpu import gl_enums as e
+from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.gl import GL
 
-# The same examples every time, and no clock: a busy machine is no reason to fail.
+if TYPE_CHECKING:
+    from demo_game.place import Place
+
+# The same examples every time, and no clock: a busy machine is no reason to fail. The examples of a
+# test share its world.
 settings.register_profile(
-    "steady", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+    "steady",
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 settings.load_profile("steady")
 
@@ -115,6 +124,30 @@ def keep(ctx: moderngl.Context) -> Iterator[Callable[[Thing], Thing]]:
     yield keep_one
     for thing in reversed(kept):
         thing.release()
+
+
+@pytest.fixture
+def world() -> Iterator[str]:
+    """A world of esper's own for a test; its name."""
+    with fresh_world() as name:
+        yield name
+
+
+@pytest.fixture(params=["compute", "feedback"])
+def backend(ctx: moderngl.Context, request: pytest.FixtureRequest) -> str:
+    """Each way of moving drops that there is here."""
+    name: str = request.param
+    if name == "compute" and not probe(ctx).compute:
+        pytest.skip("no compute shaders here")
+    return name
+
+
+@pytest.fixture(scope="session")
+def place() -> Place:
+    """The demo's place, which nobody changes; making it takes seconds."""
+    from demo_game.place import Place
+
+    return Place(0)
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -20,11 +20,7 @@ from weather_ecs.systems.air import fog_color
 from weather_ecs.systems.extract import ExtractSystem
 from weather_ecs.systems.state import WeatherState
 
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
+pytestmark = pytest.mark.usefixtures("world")
 
 
 def published() -> FrameData:

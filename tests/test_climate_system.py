@@ -6,17 +6,12 @@ import esper
 import pytest
 
 from tests.cloud_worlds import four_skies, layer, record, seconds, skies_of
-from tests.worlds import fresh_world
 from weather_ecs import Weather
 from weather_ecs.components import Climate
 from weather_ecs.systems.climate import state_of
 from weather_ecs.systems.clouds import layer_state
 
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
+pytestmark = pytest.mark.usefixtures("world")
 
 
 def test_the_worked_example_is_exact():

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from tests.cloud_worlds import drawn, four_skies, layer, model, seconds, sky
-from tests.worlds import fresh_world
 from weather_ecs import Weather
 from weather_ecs.components import Climate, Cloud, CloudRoot, CloudSeed, SkyLayer, Sun
 from weather_ecs.physics.absorption import absorbed, path_lengths
@@ -17,13 +16,9 @@ from weather_ecs.systems import cloud_shapes
 from weather_ecs.systems.cloud_light import light_one
 from weather_ecs.systems.cloud_shapes import TURNS, ShapeLibrary, local, turn_of
 
+pytestmark = pytest.mark.usefixtures("world")
+
 UP = (0.0, 1.0, 0.0)
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 def at_angle(degrees: float) -> tuple[float, float, float]:

@@ -9,16 +9,11 @@ import numpy as np
 import pytest
 
 from tests.cloud_worlds import drawn, layer, model, places, record, seconds, sky
-from tests.worlds import fresh_world
 from weather_ecs import Weather
 from weather_ecs.components import Climate, Cloud, RainArea, Sky, Wind
 from weather_ecs.systems.cloud_rain import MOST, SHRINK, foot_of
 
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
+pytestmark = pytest.mark.usefixtures("world")
 
 
 def areas() -> list[RainArea]:

@@ -25,14 +25,10 @@ from weather_ecs.components import Climate, Cloud, RainArea, Sky, SkyLayer, Wind
 from weather_ecs.errors import SnapshotError
 from weather_ecs.systems.cloud_field import CloudField
 
+pytestmark = pytest.mark.usefixtures("world")
+
 ROOT = Path(__file__).resolve().parent.parent
 TIMES = [0.016, 0.4, 7.0, 2.7, 1 / 3, 9.0, 0.05, 10.0]
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 def build() -> None:

@@ -28,11 +28,7 @@ from weather_ecs.systems.cloud_layer import FORMING
 from weather_ecs.systems.cloud_mix import Chooser, Mix, mix_at, nearest_mix
 from weather_ecs.systems.cloud_place import scattered
 
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
+pytestmark = pytest.mark.usefixtures("world")
 
 
 # Chance

@@ -25,11 +25,6 @@ from weather_ecs.presets import PRESETS
 SHOWN = SimpleNamespace(show_map=False)
 
 
-@pytest.fixture(scope="module")
-def place() -> Place:
-    return Place(0)
-
-
 @pytest.fixture
 def game(ctx: moderngl.Context, place: Place) -> Iterator[Game]:
     made = Game(ctx, Settings(quality="low"), place=place)

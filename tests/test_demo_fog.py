@@ -17,6 +17,7 @@ from demo_game.game import Game
 from demo_game.mood import AIRS
 from demo_game.place import Place, layout, sight_posts
 from demo_game.settings import Settings
+from tests.targets import window_like
 from weather_ecs.physics.optics import fog_factor, visibility_to_extinction
 from weather_ecs.presets import PRESETS
 from weather_ecs.systems.air import fog_color
@@ -26,18 +27,10 @@ LIT = np.linspace(0.0, 4.0, 40_001)  # scene light
 CURVE = np.array([shown(value) for value in LIT])
 
 
-@pytest.fixture(scope="module")
-def place() -> Place:
-    return Place(0)
-
-
 @pytest.fixture
 def target(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
-    color, depth = ctx.texture(SIZE, 4), ctx.depth_texture(SIZE)
-    framebuffer = ctx.framebuffer([color], depth)
-    yield framebuffer
-    for thing in (framebuffer, depth, color):
-        thing.release()
+    with window_like(ctx, SIZE) as framebuffer:
+        yield framebuffer
 
 
 class Look:

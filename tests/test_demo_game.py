@@ -20,24 +20,17 @@ from demo_game.player import Intent
 from demo_game.settings import Settings
 from demo_game.showers import Showers
 from demo_game.tours import make_tour
+from tests.targets import window_like
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.presets import PRESETS
 
 SIZE = (96, 54)
 
 
-@pytest.fixture(scope="module")
-def place() -> Place:
-    return Place(0)
-
-
 @pytest.fixture
 def target(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
-    color, depth = ctx.texture(SIZE, 4), ctx.depth_texture(SIZE)
-    framebuffer = ctx.framebuffer([color], depth)
-    yield framebuffer
-    for thing in (framebuffer, depth, color):
-        thing.release()
+    with window_like(ctx, SIZE) as framebuffer:
+        yield framebuffer
 
 
 @pytest.fixture

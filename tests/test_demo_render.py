@@ -48,11 +48,6 @@ def perspective(fov: float = 62.0, aspect: float = 16.0 / 9.0) -> NDArray:
     return m
 
 
-@pytest.fixture(scope="module")
-def place() -> Place:
-    return Place()
-
-
 @pytest.fixture
 def target(ctx: moderngl.Context, keep: Keep) -> moderngl.Framebuffer:
     color, depth = keep(ctx.texture(SIZE, 4)), keep(ctx.depth_renderbuffer(SIZE))

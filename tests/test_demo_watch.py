@@ -51,11 +51,6 @@ final = 0.5
 """
 
 
-@pytest.fixture(scope="module")
-def place() -> Place:
-    return Place(0)
-
-
 @pytest.fixture
 def path(tmp_path: Path) -> Path:
     place = tmp_path / "evening.toml"

@@ -22,11 +22,6 @@ STORMY = "METAR KEWR 111851Z VRB03G19KT 2SM TSRA BR FEW015 BKN040CB 22/22 A2987"
 WINDY = "EHAM 020825Z 21022KT 9999 FEW008 SCT018 BKN022 17/15 Q1002"
 
 
-@pytest.fixture(scope="module")
-def place() -> Place:
-    return Place(0)
-
-
 @pytest.fixture
 def context() -> Iterator[object]:
     context = headless.make_context()

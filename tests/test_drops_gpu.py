@@ -12,35 +12,24 @@ import numpy as np
 import pytest
 
 from tests.boxes import CORNERS, TRIANGLES, placed
+from tests.targets import bound_target
 from tests.views import look_from, perspective
-from tests.worlds import fresh_world
 from weather_ecs import QualitySettings, Weather
 from weather_ecs.components import Occluder, RainArea, RainContainer, RainGauge, Wind
-from weather_ecs.gpu.context import probe
 from weather_ecs.physics import front
 from weather_ecs.physics.drops import number_density, slope, terminal_speed
 from weather_ecs.physics.rain_step import LANDED, diameters, law_of
+
+pytestmark = pytest.mark.usefixtures("world")
 
 DROPS = 20_000
 RATES = [1.0, 5.0, 25.0, 100.0]
 
 
 @pytest.fixture(autouse=True)
-def world() -> Iterator[None]:
-    with fresh_world():
+def target(ctx: moderngl.Context) -> Iterator[None]:
+    with bound_target(ctx, (32, 18)):
         yield
-
-
-@pytest.fixture(params=["compute", "feedback"])
-def backend(ctx: moderngl.Context, request: pytest.FixtureRequest) -> Iterator[str]:
-    name: str = request.param
-    if name == "compute" and not probe(ctx).compute:
-        pytest.skip("no compute shaders here")
-    made = ctx.simple_framebuffer((32, 18))
-    made.use()
-    yield name
-    for thing in (*made.color_attachments, made.depth_attachment, made):
-        thing.release()
 
 
 class Held(NamedTuple):

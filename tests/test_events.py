@@ -21,11 +21,7 @@ from weather_ecs.events import (
 )
 from weather_ecs.systems.events import state_name
 
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
+pytestmark = pytest.mark.usefixtures("world")
 
 
 class Log:

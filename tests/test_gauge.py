@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from types import SimpleNamespace
 from typing import Any
 
@@ -15,13 +15,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.boxes import CORNERS, TRIANGLES, placed
+from tests.targets import bound_target
 from tests.views import look_from, perspective
-from tests.worlds import fresh_world
 from weather_ecs import Weather
 from weather_ecs.components import Occluder, RainArea, RainGauge, Wind
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.frame import GaugeData, GaugeReading
-from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.gauge_pass import MAX_GAUGES, RING
 from weather_ecs.physics.container import births
 from weather_ecs.physics.drops import drop_density, sample_diameters
@@ -30,31 +29,16 @@ from weather_ecs.physics.lod import rim_fade, weight_shape
 from weather_ecs.physics.rain_step import diameters, fall_speeds, law_of
 from weather_ecs.systems.gauge import PARTS, GaugeBoard
 
+pytestmark = pytest.mark.usefixtures("world")
+
 RATE = 25.0
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
-
-
-@pytest.fixture(params=["compute", "feedback"])
-def backend(ctx: moderngl.Context, request: pytest.FixtureRequest) -> str:
-    name: str = request.param
-    if name == "compute" and not probe(ctx).compute:
-        pytest.skip("no compute shaders here")
-    return name
 
 
 @pytest.fixture
 def target(ctx: moderngl.Context) -> Iterator[None]:
     """Something small to draw into."""
-    made = ctx.simple_framebuffer((32, 18))
-    made.use()
-    yield
-    for thing in (*made.color_attachments, made.depth_attachment, made):
-        thing.release()
+    with bound_target(ctx, (32, 18)):
+        yield
 
 
 # The component
@@ -266,6 +250,20 @@ def watch(weather: Weather, seconds: float, step: float = 0.1, heading: float = 
         weather.draw(look_from((0, 1.7, 0), heading), perspective())
 
 
+def set_up(gauges: Iterable[RainGauge]) -> list[RainGauge]:
+    there = list(gauges)
+    for gauge in there:
+        esper.create_entity(gauge)
+    return there
+
+
+def counted(gauges: list[RainGauge], within: float) -> None:
+    """They read the rain rate, by drops that were counted: looked up, it would be exact."""
+    got = [gauge.rate for gauge in gauges]
+    assert got == pytest.approx([RATE] * len(gauges), rel=within)
+    assert got != [RATE] * len(gauges)
+
+
 def own_water(weather: Weather) -> list[float]:
     """Drops' own water over what was counted, for every gauge, in the last frames together."""
     sums = np.zeros((MAX_GAUGES, 4))
@@ -287,16 +285,12 @@ def test_in_the_open_a_gauge_reads_the_areas_rain_rate(
     with Weather(context=ctx, backend=backend, quality="medium", seed=2) as weather:
         esper.create_entity(RainArea((0, 0), (200, 200), RATE))
         esper.create_entity(Wind((0.6, 0.8), speed))
-        gauges = [RainGauge((x, y, z)) for x, z, y in PLACES]
-        for gauge in gauges:
-            esper.create_entity(gauge)
+        gauges = set_up(RainGauge((x, y, z)) for x, z, y in PLACES)
         ratios = []
         for _ in range(10):
             watch(weather, 3.0)
             ratios.append(own_water(weather))
-        got = [gauge.rate for gauge in gauges]
-        assert got == pytest.approx([RATE] * len(gauges), rel=0.05)
-        assert got != [RATE] * len(gauges)  # counted, and not looked up
+        counted(gauges, 0.05)
         # The same drops by their own water: a few large ones decide, so less exactly.
         assert np.mean(np.array(ratios)[:, : len(gauges)]) == pytest.approx(1.0, abs=0.12)
 
@@ -313,13 +307,9 @@ def test_gusts_a_profile_and_turbulence_take_no_rain_and_bring_none(
                 exponent=1 / 7, turbulence=0.25, ground=-1.0, scale=5.0,
             )
         )  # fmt: skip
-        gauges = [RainGauge((x, y, z)) for x, z, y in PLACES]
-        for gauge in gauges:
-            esper.create_entity(gauge)
+        gauges = set_up(RainGauge((x, y, z)) for x, z, y in PLACES)
         watch(weather, 30.0)
-        got = [gauge.rate for gauge in gauges]
-        assert got == pytest.approx([RATE] * len(gauges), rel=0.05)
-        assert got != [RATE] * len(gauges)
+        counted(gauges, 0.05)
 
 
 @pytest.mark.usefixtures("target")
@@ -327,13 +317,9 @@ def test_turbulence_brings_and_takes_none_near_and_far(ctx: moderngl.Context, ba
     with Weather(context=ctx, backend=backend, quality="medium", seed=5) as weather:
         esper.create_entity(RainArea((0, 0), (200, 200), RATE))
         esper.create_entity(Wind((0.6, 0.8), 9.0, turbulence=0.25, ground=-1.0, scale=5.0))
-        gauges = [RainGauge((x, 0.5, 0.0), window=20.0) for x in (2.0, 8.0, 15.0, 25.0)]
-        for gauge in gauges:
-            esper.create_entity(gauge)
+        gauges = set_up(RainGauge((x, 0.5, 0.0), window=20.0) for x in (2.0, 8.0, 15.0, 25.0))
         watch(weather, 22.0)
-        got = [gauge.rate for gauge in gauges]
-        assert got == pytest.approx([RATE] * len(gauges), rel=0.04)
-        assert got != [RATE] * len(gauges)
+        counted(gauges, 0.04)
 
 
 @pytest.mark.usefixtures("target")
@@ -367,13 +353,9 @@ def test_a_roof_in_the_wind_takes_nothing_from_a_gauge_beside_it(
         ground = placed((0, -1, 0), (100, 1, 100))
         esper.create_entity(Occluder(CORNERS, TRIANGLES, ground))
         esper.create_entity(Occluder(CORNERS, TRIANGLES, placed((14, 3, -14), (5, 0.1, 5))))
-        gauges = [RainGauge((x, 0.3, 0.0)) for x in (15.0, 22.0)]
-        for gauge in gauges:
-            esper.create_entity(gauge)
+        gauges = set_up(RainGauge((x, 0.3, 0.0)) for x in (15.0, 22.0))
         watch(weather, 30.0)
-        got = [gauge.rate for gauge in gauges]
-        assert got == pytest.approx([RATE] * 2, rel=0.06)
-        assert got != [RATE] * 2
+        counted(gauges, 0.06)
 
 
 @pytest.mark.usefixtures("target")

@@ -220,11 +220,6 @@ def test_showers_follow_the_seed_and_the_time_alone() -> None:
 
 
 @pytest.fixture(scope="module")
-def place() -> Place:
-    return Place(0)
-
-
-@pytest.fixture(scope="module")
 def weather(place: Place) -> Iterator[tuple[Weather, RainArea]]:
     with fresh_world():
         area = RainArea(center=CENTER, radii=RADII, soft_edge=SOFT_EDGE, ceiling=CEILING)

@@ -21,15 +21,11 @@ from weather_ecs.metar_falls import RATES
 from weather_ecs.metar_weather import FAR, humidity
 from weather_ecs.physics.haze import haze_visibility
 
+pytestmark = pytest.mark.usefixtures("world")
+
 FILE = Path(__file__).parent / "data" / "metars.txt"
 REAL = [line for line in FILE.read_text().splitlines() if line and line[0] != "#"]
 KNOT, MILE, FOOT = 0.514444, 1609.344, 0.3048
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 def find(station: str) -> str:

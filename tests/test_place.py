@@ -21,11 +21,6 @@ EYE = 1.7  # m
 
 
 @pytest.fixture(scope="module")
-def place() -> Place:
-    return Place()
-
-
-@pytest.fixture(scope="module")
 def colliders(place: Place) -> Colliders:
     return Colliders.of(place.colliders)
 

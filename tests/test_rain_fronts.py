@@ -18,13 +18,9 @@ from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.front import LONG, SETTLED, water_arrived
 from weather_ecs.systems.rain_fronts import RainFronts
 
+pytestmark = pytest.mark.usefixtures("world")
+
 CEILING, RATE = 100.0, 25.0
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 def make(rate: float, **fields: Any) -> RainArea:

@@ -10,36 +10,27 @@ import moderngl
 import numpy as np
 import pytest
 
+from tests.drop_oracle import SEED, N, oracle, slab_map, states
+from tests.targets import bound_target
 from tests.views import look_from, perspective
 from weather_ecs.frame import AREA_DTYPE, DropLook, FrameData, WindProfile
-from weather_ecs.gpu.air_block import flow_of, is_steady
-from weather_ecs.gpu.blocks import BlockBuffer
-from weather_ecs.gpu.heightmap import Footprint
-from weather_ecs.gpu.rain_blocks import SHELTER
-from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass
+from weather_ecs.gpu.air_block import is_steady
+from weather_ecs.gpu.rain_pass import RainPass
 from weather_ecs.gpu.shader_loader import ShaderLoader
-from weather_ecs.physics import rain_step
 from weather_ecs.physics.camera import camera_from
-from weather_ecs.physics.shelter import ShelterMap
 from weather_ecs.physics.turbulence import AirFlow, air_flow
 from weather_ecs.systems.rain_view import RainView
 
 # Without a complete framebuffer some drivers write nothing in transform feedback.
 pytestmark = pytest.mark.usefixtures("target")
 
-N = 3000
 SETTINGS = SimpleNamespace(drops=N, containers=4, budget=1.0, veil=True, heightmap_size=64)
 
 
 @pytest.fixture
 def target(ctx: moderngl.Context) -> Iterator[None]:
-    framebuffer = ctx.simple_framebuffer((8, 8))
-    framebuffer.use()
-    yield
-    for attachment in framebuffer.color_attachments:
-        attachment.release()
-    framebuffer.depth_attachment.release()
-    framebuffer.release()
+    with bound_target(ctx, (8, 8)):
+        yield
 
 
 def areas(*rows: tuple[tuple[float, float], tuple[float, float], float]) -> np.ndarray:
@@ -49,14 +40,6 @@ def areas(*rows: tuple[tuple[float, float], tuple[float, float], float]) -> np.n
         array[k]["center"], array[k]["radii"], array[k]["rain_rate"] = center, radii, rate
         array[k]["soft_edge"], array[k]["ceiling"] = 10.0, 400.0
     return array
-
-
-def states(rain: RainPass) -> dict[int, np.ndarray]:
-    found = {}
-    for key, drops in rain.sets().items():
-        state = np.frombuffer(drops.states[drops.current].read(), np.float32)
-        found[key] = state.reshape(-1, 6)[: drops.alive]
-    return found
 
 
 EVEN = WindProfile()
@@ -72,10 +55,8 @@ def walk(
 ) -> tuple[RainPass, ShaderLoader, list]:
     """A run into and out of two areas, turning; returns the views it made too."""
     shaders = ShaderLoader(ctx)
-    rain = RainPass(
-        ctx, shaders, backend=backend, seed=7, impact_capacity=impact_capacity
-    )
-    view_of = RainView(7)
+    rain = RainPass(ctx, shaders, backend=backend, seed=SEED, impact_capacity=impact_capacity)
+    view_of = RainView(SEED)
     views = []
     rows = areas(((0.0, 0.0), (60.0, 40.0), 25.0), ((50.0, -30.0), (30.0, 20.0), 80.0))
     for k in range(frames):
@@ -90,33 +71,6 @@ def walk(
         rain.update(view, sheltered)
         views.append(view)
     return rain, shaders, views
-
-
-def oracle(views: list, shelter: ShelterMap | None = None) -> dict[int, np.ndarray]:
-    """The same walk in NumPy."""
-    drops: dict[int, dict] = {}
-    for view in views:
-        for c in view.containers:
-            d = drops.setdefault(
-                c.key,
-                {"p": np.zeros((N, 3), np.float32), "v": np.zeros((N, 3), np.float32),
-                 "placed": None, "alive": 0, "steps": 0},
-            )  # fmt: skip
-            placing = (c.axis, c.shape)
-            if view.dt <= 0 and d["placed"] == placing:
-                continue
-            d["steps"] += 1
-            before = d["placed"] or placing
-            count = min(int(c.count) + 1, N)
-            seed = (7 * 0x9E3779B1 + c.word * 0x85EBCA6B + d["steps"]) & 0xFFFFFFFF
-            step = rain_step.Step(
-                *before, *placing, (*view.frame.wind, view.dt), c.law, seed,
-                0 if d["placed"] is None else d["alive"], flow_of(view),
-            )  # fmt: skip
-            p, v = rain_step.step(c.births[:count], d["p"][:count], d["v"][:count], step, shelter)
-            d["p"][:count], d["v"][:count] = p, v
-            d["alive"], d["placed"] = count, placing
-    return {k: np.hstack([d["p"][: d["alive"]], d["v"][: d["alive"]]]) for k, d in drops.items()}
 
 
 GUSTY = WindProfile(exponent=1 / 7, ground=-1.0, turbulence=1.5, scale=5.0)
@@ -197,31 +151,6 @@ def test_a_pause_moves_nothing(ctx: moderngl.Context) -> None:
     finally:
         rain.release()
         shaders.release()
-
-
-def slab_map(ctx: moderngl.Context) -> tuple[moderngl.Texture, BlockBuffer, ShelterMap]:
-    """Ground that rises and a roof over a part of it, seen along a slanted fall."""
-    size, half, slope = 128, 90.0, (0.4, 0.2)
-    place = Footprint((0.0, 0.0), half, slope, -20.0, 40.0)
-    side = (np.arange(size, dtype=np.float32) + 0.5) / size * 2 * half - half
-    x, z = np.meshgrid(side, side)
-    height = 0.02 * x
-    height[(abs(x) < 25) & (abs(z) < 30)] = 5.0
-    depth = ((40.0 - height) / 60.0).astype(np.float32)
-    texture = ctx.depth_texture((size, size), depth)
-    texture.compare_func = ""
-    texture.filter = moderngl.NEAREST, moderngl.NEAREST
-    texture.use(SHELTER_UNIT)
-    block = BlockBuffer(ctx, SHELTER)
-    block["shelter_matrix"] = place.matrix()
-    block.data["shelter_size"] = (size, 60.0, 2 * half / size, 0.0)
-    block.data["shelter_fall"] = (*slope, 0.0, 0.0)
-    block.upload()
-    block.bind()
-    # The depth buffer may be stored in 24 bits; the oracle gets what the shader will read.
-    stored = np.frombuffer(texture.read(), np.float32).reshape(size, size)
-    known = ShelterMap(stored, place.matrix().astype(np.float32), 60.0, 2 * half / size, slope)
-    return texture, block, known
 
 
 @pytest.mark.parametrize("backend", ["compute", "feedback"])

@@ -52,14 +52,6 @@ def far(**changes: Any) -> RainArea:
     return near(**{"center": (0, -120), **changes})
 
 
-@pytest.fixture(params=["compute", "feedback"])
-def backend(ctx: moderngl.Context, request: pytest.FixtureRequest) -> str:
-    name: str = request.param
-    if name == "compute" and not probe(ctx).compute:
-        pytest.skip("no compute shaders here")
-    return name
-
-
 @pytest.fixture
 def made(ctx: moderngl.Context) -> Iterator[Stage]:
     with stage(ctx) as it:

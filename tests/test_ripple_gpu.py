@@ -38,11 +38,6 @@ def water(**fields: Any) -> RippleData:
     return RippleData(**{**usual, **fields})
 
 
-@pytest.fixture(params=["compute", "feedback"])
-def backend(request: pytest.FixtureRequest) -> str:
-    return request.param
-
-
 @pytest.fixture
 def made(ctx: moderngl.Context, backend: str) -> Iterator[Stage]:
     with stage(ctx, backend=backend, quality="medium") as it:
@@ -181,9 +176,7 @@ def test_a_clock_that_was_set_back_begins_with_level_water(passes: Any) -> None:
     grid = advance(water(), start, [5.0, 5.5])
     assert read(grid).any()
     grid = advance(water(), np.zeros_like(start), [1.0])
-    assert not read(grid).any() and grid.steps == math.floor(
-        1.0 / ripple.time_step(0.02, 0.3)
-    )
+    assert not read(grid).any() and grid.steps == math.floor(1.0 / ripple.time_step(0.02, 0.3))
 
 
 def test_the_map_holds_the_slopes(passes: Any) -> None:

@@ -24,11 +24,6 @@ from weather_ecs.gpu.ripple_pass import BUDGET
 from weather_ecs.physics import ripple, ripple_place
 
 
-@pytest.fixture(params=["compute", "feedback"])
-def backend(request: pytest.FixtureRequest) -> str:
-    return request.param
-
-
 @pytest.fixture
 def made(ctx: moderngl.Context, backend: str) -> Iterator[Stage]:
     with stage(ctx, backend=backend, quality="medium") as it:

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.worlds import fresh_world
 from weather_ecs import Weather
 from weather_ecs.components import PointLight, RainArea, Sun, Wind
 from weather_ecs.errors import InvalidValueError
@@ -19,11 +18,7 @@ from weather_ecs.physics.ellipse import edge_factor, implicit
 from weather_ecs.physics.optics import CLEAR_VISIBILITY, visibility_in_rain
 from weather_ecs.sampling import SampleField, luminance
 
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
+pytestmark = pytest.mark.usefixtures("world")
 
 
 @pytest.fixture

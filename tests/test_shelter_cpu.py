@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 
 from tests.boxes import CORNERS, TRIANGLES, highest, placed
 from tests.rain_frames import area, frame
-from tests.worlds import fresh_world
 from weather_ecs import Weather
 from weather_ecs.components import CollisionHeightmap, Occluder, RainArea, Wind
 from weather_ecs.frame import OccluderData
@@ -26,13 +25,9 @@ from weather_ecs.physics.footprint import fall_slope, fall_speed_over
 from weather_ecs.physics.heightfield import FEW, LONGEST, Facets, pieces
 from weather_ecs.systems.shelter import MARGIN, ShelterIndex
 
+pytestmark = pytest.mark.usefixtures("world")
+
 HERE = np.eye(4)
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 def brute(corners: np.ndarray, slope: tuple[float, float], u: float, w: float) -> float:

@@ -31,14 +31,10 @@ from weather_ecs.components import (
 )
 from weather_ecs.errors import SnapshotError
 
+pytestmark = pytest.mark.usefixtures("world")
+
 ROOT = Path(__file__).resolve().parent.parent
 TIMES = [0.016, 0.4, 0.0, 2.7, 1 / 3, 11.0, 0.05]
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 def build() -> None:

@@ -53,12 +53,6 @@ def test_two_spans_are_one(snow, inflow, melt, seconds, share):
     assert at_once >= 0.0
 
 
-@pytest.fixture
-def world():
-    with fresh_world():
-        yield
-
-
 def run(seconds: float, dt: float = 0.5) -> None:
     for _ in range(round(seconds / dt)):
         esper.process(dt)

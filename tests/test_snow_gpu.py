@@ -13,52 +13,35 @@ import numpy as np
 import pytest
 
 from tests.boxes import CORNERS, TRIANGLES, placed
+from tests.drop_oracle import SEED, N, oracle, slab_map, states
 from tests.rain_frames import area, frame
-from tests.test_rain_gpu import slab_map, states
+from tests.targets import bound_target
 from tests.views import look_from, perspective
-from tests.worlds import fresh_world
 from weather_ecs import Weather
 from weather_ecs.components import Occluder, RainArea, RainGauge, SnowFlakes, SplashEmitter, Wind
 from weather_ecs.frame import SNOW, AirData, SnowLook, ViewData, WindProfile
-from weather_ecs.gpu.air_block import flow_of
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.rain_pass import RainPass
 from weather_ecs.gpu.shader_loader import ShaderLoader
-from weather_ecs.physics import rain_step
 from weather_ecs.physics.camera import camera_from
-from weather_ecs.physics.shelter import ShelterMap
-from weather_ecs.physics.snow import SnowLaw
-from weather_ecs.physics.snow_step import flakes_of
 from weather_ecs.systems.extract import ExtractSystem
 from weather_ecs.systems.rain_view import RainView
 
-N = 3000
 SETTINGS = SimpleNamespace(drops=N, containers=4, budget=1.0, veil=True, heightmap_size=64)
 COLD = AirData(temperature=-3.0, humidity=0.9, wet_bulb=-3.5, snow_share=1.0)
 SLEET = AirData(temperature=1.0, humidity=0.9, wet_bulb=0.4, snow_share=0.5)
 LOOKS = {"physical": SnowLook(), "liu_tong": SnowLook(model="liu_tong")}
 
 
-@pytest.fixture(params=["compute", "feedback"])
-def backend(ctx: moderngl.Context, request: pytest.FixtureRequest) -> str:
-    name: str = request.param
-    if name == "compute" and not probe(ctx).compute:
-        pytest.skip("no compute shaders here")
-    return name
-
-
 @pytest.fixture
 def target(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
-    made = ctx.simple_framebuffer((160, 90))
-    made.use()
-    yield made
-    for thing in (*made.color_attachments, made.depth_attachment, made):
-        thing.release()
+    with bound_target(ctx, (160, 90)) as made:
+        yield made
 
 
 def views_of(frames: int, air: AirData, look: SnowLook, wind=(3.0, 0.0, 1.0)) -> list[ViewData]:
     """A walk through snow, turning, in turbulent air."""
-    view_of, profile, views = RainView(7), WindProfile(turbulence=0.8), []
+    view_of, profile, views = RainView(SEED), WindProfile(turbulence=0.8), []
     rows = (area(0, (0.0, 0.0), (60.0, 40.0), 2.0), area(1, (50.0, -30.0), (30.0, 20.0), 4.0))
     for k in range(frames):
         t = 100.0 + k / 30
@@ -66,36 +49,6 @@ def views_of(frames: int, air: AirData, look: SnowLook, wind=(3.0, 0.0, 1.0)) ->
         it = frame(*rows, time=t, wind=wind, air=air, flakes=look, profile=profile)
         views.append(view_of.view(it, camera_from(place, perspective()), 0, SETTINGS))
     return views
-
-
-def oracle(views: list[ViewData], shelter: ShelterMap | None = None) -> dict[int, np.ndarray]:
-    """The same in NumPy, drops and flakes."""
-    sets: dict[int, dict] = {}
-    for view in views:
-        for c in view.containers:
-            d = sets.setdefault(
-                c.key,
-                {"p": np.zeros((N, 3), np.float32), "v": np.zeros((N, 3), np.float32),
-                 "placed": None, "alive": 0, "steps": 0},
-            )  # fmt: skip
-            placing = (c.axis, c.shape)
-            if view.dt <= 0 and d["placed"] == placing:
-                continue
-            d["steps"] += 1
-            count = min(int(c.count) + 1, N)
-            seed = (7 * 0x9E3779B1 + c.word * 0x85EBCA6B + d["steps"]) & 0xFFFFFFFF
-            flakes = None
-            if c.kind == SNOW:
-                law = SnowLaw(*c.law, model=view.frame.flakes.model)
-                flakes = flakes_of(law, view.frame.time, view.frame.flakes.flutter)
-            step = rain_step.Step(
-                *(d["placed"] or placing), *placing, (*view.frame.wind, view.dt), c.law, seed,
-                0 if d["placed"] is None else d["alive"], flow_of(view), flakes,
-            )  # fmt: skip
-            p, v = rain_step.step(c.births[:count], d["p"][:count], d["v"][:count], step, shelter)
-            d["p"][:count], d["v"][:count] = p, v
-            d["alive"], d["placed"] = count, placing
-    return {k: np.hstack([d["p"][: d["alive"]], d["v"][: d["alive"]]]) for k, d in sets.items()}
 
 
 def compare(found: dict[int, np.ndarray], expected: dict[int, np.ndarray]) -> None:
@@ -118,7 +71,7 @@ def test_flakes_are_where_the_oracle_has_them(
     kinds = {c.kind for view in views for c in view.containers}
     assert kinds == ({SNOW} if air is COLD else {0, SNOW})
     shaders = ShaderLoader(ctx)
-    rain = RainPass(ctx, shaders, backend=backend, seed=7)
+    rain = RainPass(ctx, shaders, backend=backend, seed=SEED)
     try:
         for view in views:
             rain.update(view)
@@ -133,7 +86,7 @@ def test_flakes_land_silently(ctx: moderngl.Context, backend: str) -> None:
     views = views_of(50, COLD, SnowLook())
     texture, block, shelter = slab_map(ctx)
     shaders = ShaderLoader(ctx)
-    rain = RainPass(ctx, shaders, backend=backend, seed=7, impact_capacity=4096)
+    rain = RainPass(ctx, shaders, backend=backend, seed=SEED, impact_capacity=4096)
     try:
         for view in views:
             rain.update(view, sheltered=True)
@@ -153,12 +106,6 @@ def test_flakes_land_silently(ctx: moderngl.Context, backend: str) -> None:
 
 
 # In a weather
-
-
-@pytest.fixture
-def world() -> Iterator[str]:
-    with fresh_world() as name:
-        yield name
 
 
 @pytest.fixture

@@ -19,14 +19,6 @@ from weather_ecs.gpu.gl import GL
 NORTH = math.pi / 2  # the heading of -z
 
 
-@pytest.fixture(params=["compute", "feedback"])
-def backend(ctx: moderngl.Context, request: pytest.FixtureRequest) -> str:
-    name: str = request.param
-    if name == "compute" and not probe(ctx).compute:
-        pytest.skip("no compute shaders here")
-    return name
-
-
 def scene(splashes: bool = True, roof: bool = False, **looks: float) -> None:
     """Rain on level ground; a roof over the half that is in front of x = 0."""
     esper.create_entity(RainArea((0, 0), (60, 40), 60.0))

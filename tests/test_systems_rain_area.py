@@ -11,11 +11,7 @@ from tests.worlds import fresh_world
 from weather_ecs.components import RainArea
 from weather_ecs.systems import RainAreaSystem, WeatherState
 
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
+pytestmark = pytest.mark.usefixtures("world")
 
 
 def steps(area: RainArea, count: int, wind: tuple[float, float, float]) -> RainArea:

@@ -16,11 +16,7 @@ from weather_ecs.systems import SCHEDULE, WeatherProcessor, WeatherState, schedu
 from weather_ecs.systems.queries import alive, in_world, living
 from weather_ecs.systems.uids import Uids
 
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
+pytestmark = pytest.mark.usefixtures("world")
 
 
 def test_the_schedule_is_one_table_with_a_reason_in_every_row():

@@ -19,11 +19,7 @@ from weather_ecs.physics import gusts, wind
 from weather_ecs.systems import WeatherState, WindSystem
 from weather_ecs.systems.wind import strength, varies, winds_at
 
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
+pytestmark = pytest.mark.usefixtures("world")
 
 
 def summed() -> tuple[float, float, float]:

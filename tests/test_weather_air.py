@@ -14,7 +14,6 @@ import pytest
 
 from tests.gl_host import read_state
 from tests.views import look_from, perspective
-from tests.worlds import fresh_world
 from weather_ecs import Weather, glsl
 from weather_ecs.components import Air, Fog, Observer, RainArea, Sun, Wind
 from weather_ecs.errors import ClosedError, ContextError, InvalidValueError
@@ -29,14 +28,10 @@ from weather_ecs.physics.optics import (
 )
 from weather_ecs.physics.phase import share_at
 
+pytestmark = pytest.mark.usefixtures("world")
+
 BLACK, GREY = (0.0, 0.0, 0.0), (0.5, 0.4, 0.3)
 FOG = (0.2, 0.3, 0.9)
-
-
-@pytest.fixture(autouse=True)
-def world() -> Iterator[str]:
-    with fresh_world() as name:
-        yield name
 
 
 @pytest.fixture

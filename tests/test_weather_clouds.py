@@ -10,11 +10,7 @@ from tests.worlds import fresh_world
 from weather_ecs import InvalidValueError, Weather, WeatherError, presets
 from weather_ecs.components import Climate, Cloud, CloudModel, RainArea, SkyLayer
 
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
+pytestmark = pytest.mark.usefixtures("world")
 
 
 @pytest.mark.parametrize("name", sorted(presets.SKIES))

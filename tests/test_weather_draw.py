@@ -20,6 +20,8 @@ from weather_ecs.gpu import renderer as gpu_renderer
 from weather_ecs.quality import LEVELS
 from weather_ecs.systems import WeatherProcessor
 
+pytestmark = pytest.mark.usefixtures("world")
+
 NEAR, FAR_AWAY = 0.1, 1000.0
 FOCUS = 1.0 / math.tan(0.5)
 PROJECTION = np.array(
@@ -36,12 +38,6 @@ def view_from(x: float, y: float, z: float) -> np.ndarray:
     matrix = np.eye(4)
     matrix[:3, 3] = (-x, -y, -z)
     return matrix
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 class FakeRenderer:

@@ -27,14 +27,10 @@ from weather_ecs import (
 from weather_ecs.components import Observer, PointLight, RainArea, RainContainer, Sun, Wind
 from weather_ecs.systems import WeatherProcessor
 
+pytestmark = pytest.mark.usefixtures("world")
+
 ROOT = Path(__file__).resolve().parent.parent
 EYE = np.eye(4)
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 def test_a_weather_lives_in_the_world_that_was_current(world):

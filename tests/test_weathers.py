@@ -22,13 +22,9 @@ from weather_ecs.systems.cloud_place import QUANTUM
 from weather_ecs.systems.course import LIMITS, Conditions, Course
 from weather_ecs.weathers import WEATHERS, CloudBank, WholeWeather, heading_of
 
+pytestmark = pytest.mark.usefixtures("world")
+
 NAMES = list(WEATHERS)
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 def rain(seconds: float, step: float = 0.5) -> None:

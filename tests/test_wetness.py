@@ -35,16 +35,12 @@ from weather_ecs.physics.wetness import (
 from weather_ecs.systems.wet_ground import STEPS, WetGround
 from weather_ecs.systems.wet_tiles import MOST_TILES, WetTiles, level_of
 
+pytestmark = pytest.mark.usefixtures("world")
+
 water = st.floats(0.0, 10.0)
 inflows = st.one_of(st.just(0.0), st.floats(1e-6, 3.0))
 capacities = st.floats(0.3, 60.0)
 times = st.floats(0.0, 5000.0)
-
-
-@pytest.fixture(autouse=True)
-def world():
-    with fresh_world() as name:
-        yield name
 
 
 # The law

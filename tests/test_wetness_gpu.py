@@ -454,12 +454,6 @@ BODY = """
 """
 
 
-@pytest.fixture
-def world() -> Iterator[str]:
-    with fresh_world() as name:
-        yield name
-
-
 class Reader:
     """A game's own program that includes wetness.glsl."""
 
