@@ -81,6 +81,7 @@ class Place:
         self.walk = figure.Walk(self.terrain)
         x, z = layout.WINDMILL
         self._mill = windmill.base(self.terrain.height(x, z), x, z)
+        self._last_posed: tuple[float, dict[str, NDArray], dict[str, NDArray]] | None = None
         self.bounds = (np.array(BOUNDS[0]), np.array(BOUNDS[1]))
 
     # What walkers ask.
@@ -156,16 +157,26 @@ class Place:
 
     def figure_pose(self, t: float) -> dict[str, NDArray]:
         """(4, 4) transform of every part of the figure at time t, s."""
-        return dict(zip(figure.PARTS, self.walk.pose(t), strict=True))
+        return self._posed(t)[0]
 
     def mover_pose(self, t: float) -> dict[str, NDArray]:
         """(4, 4) transform of every part of the windmill that moves, at time t, s."""
-        return {"sails": windmill.sail_pose(t, self._mill)}
+        return self._posed(t)[1]
 
     def poses(self, t: float) -> dict[str, NDArray]:
         """(4, 4) transform of every dynamic occluder by its name, at time t, s."""
-        found = {f"figure/{name}": pose for name, pose in self.figure_pose(t).items()}
-        return found | self.mover_pose(t)
+        parts, movers = self._posed(t)
+        return {f"figure/{name}": pose for name, pose in parts.items()} | movers
+
+    def _posed(self, t: float) -> tuple[dict[str, NDArray], dict[str, NDArray]]:
+        """The figure and what moves of the windmill; a frame asks more than once."""
+        if self._last_posed is None or self._last_posed[0] != t:
+            parts = dict(zip(figure.PARTS, self.walk.pose(t), strict=True))
+            movers = {"sails": windmill.sail_pose(t, self._mill)}
+            for pose in (*parts.values(), *movers.values()):
+                pose.setflags(write=False)
+            self._last_posed = t, parts, movers
+        return self._last_posed[1:]
 
     # What is drawn.
 

@@ -139,11 +139,13 @@ class Ground:
 
 def _render(array: moderngl.VertexArray, ranges: NDArray) -> None:
     """Draw ranges of triangles (first, count), those in one call that follow each other."""
-    breaks = np.flatnonzero(ranges[1:, 0] != ranges[:-1].sum(1)) + 1
-    for piece in np.split(ranges, breaks):
-        count = int(piece[:, 1].sum())
-        if count:
-            array.render(vertices=count * 3, first=int(piece[0, 0]) * 3)
+    begin = end = 0
+    for first, count in [*ranges.tolist(), (-1, 0)]:
+        if first != end:
+            if end > begin:
+                array.render(vertices=(end - begin) * 3, first=begin * 3)
+            begin = end = first
+        end += count
 
 
 def _sampler(

@@ -9,6 +9,7 @@ from importlib import resources
 from typing import Protocol
 
 import moderngl
+import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs import glsl
@@ -79,7 +80,7 @@ def set_uniforms(program: moderngl.Program, **values: object) -> None:
 
 def set_matrix(program: moderngl.Program, name: str, *matrices: NDArray) -> None:
     """Set a matrix uniform, or an array of them, from (4, 4) arrays that act on columns."""
-    raw = b"".join(m.T.astype("f4").tobytes() for m in matrices)
+    raw = np.array(matrices, "f4").swapaxes(1, 2).tobytes()
     program[name].write(raw)  # type: ignore[union-attr]
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,6 +11,18 @@ SECTORS = 36
 # Degrees of elevation.
 RINGS = (-90.0, -6.0, -1.5, 0.0, 1.0, 2.2, 4.0, 6.5, 10.0, 15.0, 22.0, 32.0, 46.0, 65.0, 90.0)
 GLARE = 20.0  # degrees from the sun within which the sky is no ramp between a dome's corners
+
+
+def _rim() -> NDArray:
+    """(n, 3) a circle at GLARE from the sun: shares of the sun's direction and of two across it."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+    # A little wider, for the sides of the polygon.
+    reach = np.radians(GLARE) * 1.02
+    along = np.full(len(turn), np.cos(reach))
+    return np.stack([along, np.sin(reach) * np.cos(turn), np.sin(reach) * np.sin(turn)], 1)
+
+
+_RIM = _rim()
 
 
 def dome() -> tuple[NDArray, NDArray]:
@@ -31,21 +45,21 @@ def glare_frame(to_clip: NDArray, sun: NDArray) -> tuple[float, float, float, fl
 
     to_clip: (4, 4), directions from the camera to clip space. sun: (3,), unit.
     """
-    aside = np.cross(sun, (0.0, 1.0, 0.0) if abs(sun[1]) < 0.9 else (1.0, 0.0, 0.0))
-    aside /= np.linalg.norm(aside)
-    other = np.cross(sun, aside)
-    turn = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)[:, None]
-    # A little wider, for the sides of the polygon.
-    reach = np.radians(GLARE) * 1.02
-    rim = np.cos(reach) * sun + np.sin(reach) * (np.cos(turn) * aside + np.sin(turn) * other)
-    x, y, _, w = to_clip @ np.column_stack([rim, np.ones(len(rim))]).T
-    ahead = w > 1e-3
-    if not ahead.any():
+    sx, sy, sz = sun.tolist()
+    # Two directions across the sun's and each other's.
+    x, y, z = (-sz, 0.0, sx) if abs(sy) < 0.9 else (0.0, sz, -sy)
+    length = math.hypot(x, y, z)
+    x, y, z = x / length, y / length, z / length
+    other = (sy * z - sz * y, sz * x - sx * z, sx * y - sy * x)
+    axes = np.array([(sx, sy, sz), (x, y, z), other])
+    x, y, _, w = to_clip[:, :3] @ (_RIM @ axes).T + to_clip[:, 3:]
+    if w.max() <= 1e-3:
         return None
-    if not ahead.all():
+    if w.min() <= 1e-3:
         return (-1.0, -1.0, 1.0, 1.0)
-    low_x, high_x = np.clip([np.min(x / w), np.max(x / w)], -1.0, 1.0)
-    low_y, high_y = np.clip([np.min(y / w), np.max(y / w)], -1.0, 1.0)
-    if low_x >= high_x or low_y >= high_y:
+    x, y = x / w, y / w
+    left, right = max(float(x.min()), -1.0), min(float(x.max()), 1.0)
+    bottom, top = max(float(y.min()), -1.0), min(float(y.max()), 1.0)
+    if left >= right or bottom >= top:
         return None
-    return float(low_x), float(low_y), float(high_x), float(high_y)
+    return left, bottom, right, top
