@@ -211,6 +211,7 @@ class Game:
         view = view_matrix(self.pose)
         projection = projection_matrix(self.settings.hfov, width / height)
         framebuffer.use()
+        self.weather.prepare(view, projection)
         self.scene.draw(framebuffer, view, projection, self._scene_time, self._environment())
         framebuffer.use()
         self.weather.draw(view, projection)

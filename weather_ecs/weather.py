@@ -23,6 +23,7 @@ from weather_ecs.physics.camera import Camera, camera_from
 from weather_ecs.physics.footprint import SlopeFollower, fall_slope, fall_speed_over, landing_wind
 from weather_ecs.physics.lightning import GREATEST_CURRENT, LEAST_CURRENT
 from weather_ecs.physics.rain_field import RainField
+from weather_ecs.prepared_draw import PreparedDraw
 from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, settings_for
 from weather_ecs.sampling import Sample, SampleField
 from weather_ecs.stats import Stats
@@ -107,6 +108,7 @@ class Weather:
         self._field: SampleField | None = None
         self._field_frame: FrameData | None = None
         self._cost = FrameCost()
+        self._prepared: PreparedDraw | None = None
         step, frame = scheduled("step"), scheduled("frame")
         self._extract = next(system for system in frame if isinstance(system, ExtractSystem))
         self._processor = WeatherProcessor(self._state, step, frame, self._processed)
@@ -297,14 +299,36 @@ class Weather:
 
         Raises InvalidValueError for a matrix that is none, ContextError without OpenGL.
         """
+        camera = self._camera(view, projection, observer)
+        if camera is not None:
+            with _current(self._window):
+                self._draw(camera, observer, perf_counter())
+
+    def prepare(
+        self, view: Any = None, projection: Any = None, *, observer: Observer | None = None
+    ) -> None:
+        """Do ahead what `draw`, with the same arguments, needs not the game's picture for.
+
+        Drops are moved and maps are drawn then while nothing else is under way; after the scene
+        the driver would wait for the scene first. May be left out: `draw` then does it itself. The
+        framebuffer that is drawn to should be bound, for its size.
+
+        Raises what `draw` raises.
+        """
+        camera = self._camera(view, projection, observer)
+        if camera is not None:
+            with _current(self._window):
+                self._prepare(camera, observer, perf_counter())
+
+    def _camera(self, view: Any, projection: Any, observer: Observer | None) -> Camera | None:
+        """Of the matrices or of the window; None where there is nothing to draw to."""
         self._check_drawing(observer)
         if self._window is not None and not _can_be_drawn_to(self._window):
-            return
+            return None
         if self._window is not None:
             view = self._window.view if view is None else view
             projection = self._window.projection if projection is None else projection
-        with _current(self._window):
-            self._draw(camera_from(view, projection), observer, perf_counter())
+        return camera_from(view, projection)
 
     def ripples(
         self, surface: RippleSurface, *, observer: Observer | None = None
@@ -383,20 +407,37 @@ class Weather:
             return self._ready_renderer().air(self._keys.key(observer), frame, y, rate, (x, z))
 
     def _draw(self, camera: Camera, observer: Observer | None, started: float) -> None:
-        frame = self._frame()
-        finished = self._cost.begin(started)
-        if finished is not None:
-            self._auto.feed(*finished)
-        settings = self._auto.settings() if self.quality == "auto" else self._settings
-        renderer = self._ready_renderer()
-        renderer.draw(self._view.view(frame, camera, self._keys.key(observer), settings), settings)
+        ahead = self._prepared
+        if ahead is None or not ahead.serves(self._frame(), camera, self._keys.key(observer)):
+            ahead = self._begin_draw(camera, observer, started)
+        self._prepared = None
+        renderer, frame = self._ready_renderer(), ahead.view.frame
+        renderer.draw(ahead.view, ahead.settings)
         if frame.gauges:
             self._gauges.take(frame.gauges, renderer.take_readings())
         self._observer = camera.position
         self._stats.count(renderer.stats)
-        self._stats.ms = (perf_counter() - started) * 1000.0
+        self._stats.ms = ahead.ms + (perf_counter() - started) * 1000.0
         gpu_ms = float(renderer.stats.get("gpu_ms", 0.0))
         self._cost.add(gpu_ms, self._stats.ms, self._stats.drops_drawn)
+
+    def _prepare(self, camera: Camera, observer: Observer | None, started: float) -> None:
+        ahead = self._begin_draw(camera, observer, started)
+        self._ready_renderer().prepare(ahead.view, ahead.settings)
+        ahead.ms = (perf_counter() - started) * 1000.0
+        self._prepared = ahead
+
+    def _begin_draw(
+        self, camera: Camera, observer: Observer | None, started: float
+    ) -> PreparedDraw:
+        """What an observer's camera sees of the frame, at the quality that it is drawn with."""
+        frame, key = self._frame(), self._keys.key(observer)
+        finished = self._cost.begin(started)
+        if finished is not None:
+            self._auto.feed(*finished)
+        settings = self._auto.settings() if self.quality == "auto" else self._settings
+        self._ready_renderer()
+        return PreparedDraw(self._view.view(frame, camera, key, settings), settings)
 
     def _make_renderer(self) -> Renderer:
         from weather_ecs.gpu.context import obtain

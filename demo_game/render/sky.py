@@ -74,14 +74,15 @@ class Sky:
             self._row = 0
             self._painted = self._state
             return
-        rows = min(self.rows, self.size - self._row)
-        self._rows(2, self._row, rows)
-        self._row += rows
         if self._row >= self.size:
+            # Not at once: a map is read by the dome's corners, and they would wait for its rows.
             self.maps.append(self.maps.pop(0))
             self._targets.append(self._targets.pop(0))
             self._row = 0
             self._painted = self._state
+        rows = min(self.rows, self.size - self._row)
+        self._rows(2, self._row, rows)
+        self._row += rows
 
     def _rows(self, target: int, first: int, count: int) -> None:
         framebuffer = self._targets[target]

@@ -191,6 +191,9 @@ class CloudPass:
 
         depth: copies the scene's; parted: m, where something stands among the clouds.
         """
+        assert self._store is not None
+        self._programs.bind()
+        self._use_textures(self._store, self._observers[view.key])
         meets = meeting(view, self._scene, self._real)
         items, self._groups = self._find_items(view, meets), []
         self._matrix = camera_matrix(view)
@@ -198,7 +201,6 @@ class CloudPass:
         look = view.frame.cloud_look
         if self.canvases_on and not (look.plain or look.rays):
             tiles = self._observers[view.key].kept["tile"][self._drawn, 2]
-            assert self._store is not None
             self._groups = find_groups(
                 view, self._scene, self._store, self._drawn, items, tiles, self._seen, parted
             )

@@ -96,6 +96,10 @@ class CloudPrograms:
         data["cloud_depth"][:2] = view.projection[2, 2], view.projection[2, 3]
         data["cloud_softness"] = max(look.softness, 1e-3)
         self._block.upload()
+        self.bind()
+
+    def bind(self) -> None:
+        """Bind the block as it was filled."""
         self._block.bind()
 
     def meet(self, x: int, y: int) -> None:

@@ -52,6 +52,7 @@ class ImpactReader:
                 draw(self._array(view.key, impacts.records), impacts.capacity)
             return
         sets = self._rain.sets(view.key)
+        self._rain.bind_blocks(view)
         for container in view.containers:
             if container.kind == SNOW:
                 continue  # snow lands silently

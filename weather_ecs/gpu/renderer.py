@@ -116,8 +116,11 @@ class Renderer:
         nothing = np.ones(1, np.float32).tobytes()
         self._no_depth = keep(ctx.texture((1, 1), 1, data=nothing, dtype="f4"))
         self._scene_depth: moderngl.Texture | None = None  # as copied in this draw
+        # What the last `prepare` was for, with its viewport, and whether anything shelters there.
+        self._prepared: tuple[ViewData, tuple[int, int, int, int], bool] | None = None
         self._meshes = keep(OccluderMeshes(ctx, shaders))
         self._timer = keep(GpuTimer(gl))
+        self._prepare_timer = keep(GpuTimer(gl))
         self._counter = keep(PrimitiveCounter(gl))
 
     @property
@@ -174,52 +177,52 @@ class Renderer:
         """The collision heightmap of an observer, if there is one yet."""
         return self._maps.get(key)
 
-    def draw(self, view: ViewData, settings: Settings) -> None:
-        """Moves the drops by `view.dt` and draws the view into what the host has bound.
+    def prepare(self, view: ViewData, settings: Settings) -> None:
+        """What a view needs besides the host's picture: maps brought up to date, drops moved.
 
         Raises ContextError where the context is not current or the renderer was released.
         """
         if self._released:
             raise ContextError("the renderer was released")
         self.stats = {"containers": len(view.containers)}
-        wet_map = self._wetness.needs_map(view)
-        wets = wet_map or self._wetness.needs_update(view)
-        fog = self._fog.draws(view)
-        background = self._needs_sky(view)
-        clouds, bolts = self._clouds.draws(view), self._bolts.draws(view)
-        sky = fog or clouds or bolts or background
-        if not (view.containers or view.veils or view.frame.ripples or wets or sky):
+        self._prepared = None
+        if not self._draws(view):
+            return
+        with self._guard as guard:
+            if guard.viewport[2] > 0 and guard.viewport[3] > 0:
+                self._prepare(view, settings, guard.viewport)
+
+    def draw(self, view: ViewData, settings: Settings) -> None:
+        """Draws the view into what the host has bound; prepares it where that was not done.
+
+        Raises ContextError where the context is not current or the renderer was released.
+        """
+        if self._released:
+            raise ContextError("the renderer was released")
+        if self._prepared is None or self._prepared[0] is not view:
+            self._prepared = None
+            self.stats = {"containers": len(view.containers)}
+        if not self._draws(view):
             return
         with self._guard as guard:
             viewport = guard.viewport
             if viewport[2] <= 0 or viewport[3] <= 0:
                 return
-            # Before anything is drawn: a driver asked about work it has just been given starts it
-            # at once, and a software driver then draws the frame in pieces.
-            self.stats["gpu_ms"] = self._timer.latest_ms or 0.0
-            self.stats["drops_drawn"] = self._counter.latest or 0 if view.containers else 0
-            self.stats["splashes"] = self._splash.drawn if view.frame.splash else 0
-            self.stats["impacts"] = self._impacts.latest if view.frame.occluders else 0
+            if self._prepared is None:
+                self._prepare(view, settings, viewport)
+                guard.bind_framebuffer()
+            assert self._prepared is not None
+            _, prepared_for, sheltered = self._prepared
+            self._prepared = None
             self._timer.begin()
-            fill_view(self._view_block, view, viewport)
-            self._view_block.upload()
+            if viewport != prepared_for:
+                fill_view(self._view_block, view, viewport)
+                self._view_block.upload()
+            # What was bound while preparing, the guard has taken away since.
             self._view_block.bind()
+            self._shelter_block.bind()
             self._scene_depth = None
-            sheltered = self._capture(view, settings, wet_map)
-            self.stats["drops_moved"] = self._rain.update(view, sheltered)
-            if sheltered:
-                self._impacts.count(view)
-            # Half as many cells on a side as the map of what the rain hits has texels.
-            self._ripples.update(view, sheltered, settings.heightmap_size // 2)
-            self._gauges.update(view, sheltered)
-            if wets:
-                self._wetness.update(view, self._maps.get(view.key) if sheltered else None)
-            if clouds:
-                self._clouds.update(view, settings, viewport[3])
-                self.stats.update(self._clouds.stats)
-            if self._weather_sky is not None:
-                self._weather_sky.update(view.frame.atmosphere, view.frame.sky)
-            guard.bind_framebuffer()
+            clouds, bolts = self._clouds.draws(view), self._bolts.draws(view)
             self._draw_sky(view, viewport[3])
             self._draw_fog(view)
             self._draw_veils(view, below=True)
@@ -235,6 +238,46 @@ class Renderer:
             self._draw_splashes(view, sheltered)
             self._draw_drops(view)
             self._timer.end()
+
+    def _draws(self, view: ViewData) -> bool:
+        """Whether there is anything to do for a view."""
+        wets = self._wetness.needs_map(view) or self._wetness.needs_update(view)
+        if view.containers or view.veils or view.frame.ripples or wets:
+            return True
+        air = self._fog.draws(view) or self._clouds.draws(view) or self._bolts.draws(view)
+        return air or self._needs_sky(view)
+
+    def _prepare(
+        self, view: ViewData, settings: Settings, viewport: tuple[int, int, int, int]
+    ) -> None:
+        # Before anything is drawn: a driver asked about work it has just been given starts it
+        # at once, and a software driver then draws the frame in pieces.
+        times = self._prepare_timer.latest_ms, self._timer.latest_ms
+        self.stats["gpu_ms"] = sum(ms or 0.0 for ms in times)
+        self.stats["drops_drawn"] = self._counter.latest or 0 if view.containers else 0
+        self.stats["splashes"] = self._splash.drawn if view.frame.splash else 0
+        self.stats["impacts"] = self._impacts.latest if view.frame.occluders else 0
+        self._prepare_timer.begin()
+        fill_view(self._view_block, view, viewport)
+        self._view_block.upload()
+        self._view_block.bind()
+        wet_map = self._wetness.needs_map(view)
+        sheltered = self._capture(view, settings, wet_map)
+        self.stats["drops_moved"] = self._rain.update(view, sheltered)
+        if sheltered:
+            self._impacts.count(view)
+        # Half as many cells on a side as the map of what the rain hits has texels.
+        self._ripples.update(view, sheltered, settings.heightmap_size // 2)
+        self._gauges.update(view, sheltered)
+        if wet_map or self._wetness.needs_update(view):
+            self._wetness.update(view, self._maps.get(view.key) if sheltered else None)
+        if self._clouds.draws(view):
+            self._clouds.update(view, settings, viewport[3])
+            self.stats.update(self._clouds.stats)
+        if self._weather_sky is not None:
+            self._weather_sky.update(view.frame.atmosphere, view.frame.sky)
+        self._prepare_timer.end()
+        self._prepared = view, viewport, sheltered
 
     def _capture(self, view: ViewData, settings: Settings, wet: bool) -> bool:
         """Brings the collision heightmap up to date; False where nothing shelters."""
