@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +20,7 @@ SNOW = UniformBlock(
 )
 
 
+@lru_cache(maxsize=8)
 def flake_light(sky: SkyLight) -> NDArray:
     """What a flake shows, linear RGB: white, lit from all sides by sky and ground."""
     zenith, horizon = np.array(sky.zenith_color), np.array(sky.horizon_color)

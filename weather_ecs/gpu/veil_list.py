@@ -46,6 +46,9 @@ VEIL = UniformBlock(
 )
 
 
+Vector = tuple[float, float, float]
+
+
 class Seen(NamedTuple):
     """A veil and what decides whether it is drawn."""
 
@@ -73,31 +76,54 @@ def important(view: ViewData, veils: Sequence[VeilData]) -> list[Seen]:
 
 def rays(view: ViewData) -> NDArray:
     """(3, 3): the ray through the picture's middle, and what it gains to the right and upwards."""
-    inverse = np.linalg.inv((view.projection @ view.view)[[0, 1, 3], :3])
-    return np.array(inverse[:, [2, 0, 1]].T)
+    return np.array(_rays(view))
+
+
+def _rays(view: ViewData) -> tuple[Vector, Vector, Vector]:
+    """Of the matrix that takes directions to x, y and w of the picture, the inverse's columns."""
+    x, y, _, w = [row[:3] for row in (view.projection @ view.view).tolist()]
+    middle, right, up = _cross(x, y), _cross(y, w), _cross(w, x)
+    k = 1.0 / (x[0] * right[0] + x[1] * right[1] + x[2] * right[2])
+    return _scaled(middle, k), _scaled(right, k), _scaled(up, k)
+
+
+def _cross(a: Sequence[float], b: Sequence[float]) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def _scaled(a: Vector, k: float) -> Vector:
+    return a[0] * k, a[1] * k, a[2] * k
 
 
 def rectangle(view: ViewData, seen: Sequence[Seen]) -> tuple[float, float, float, float]:
     """The part of the picture where the veils are: left, bottom, right, top, in -1 to 1."""
     whole = (-1.0, -1.0, 1.0, 1.0)
-    matrix = (view.projection @ view.view)[[0, 1, 3]]
-    down = matrix[:, 1]  # what a metre of height adds
-    if down[1] + down[2] < 1e-3:
+    x, y, _, depth = (view.projection @ view.view).tolist()
+    falling = y[1] + depth[1]  # what a metre of height adds to the way from the lower edge
+    if falling < 1e-3:
         return whole
-    ends = []
+    left, right, top = 1.0, -1.0, -1.0
     for each in seen:
-        (cx, cz, c, s), (a, b, _) = each.veil.axis, each.veil.shape
-        u, w = np.array([[-a, -a, a, a], [-b, b, -b, b]]) * 1.001
-        y = np.full(4, each.veil.span[1])
-        high = matrix @ np.stack([cx + u * c + w * s, y, cz - u * s + w * c, np.ones(4)])
-        # The edges of its box go on falling where there is no ground, to the picture's lower edge.
-        low = high - down[:, None] * ((high[1] + high[2]) / (down[1] + down[2]))
-        ends += [high, low]
-    x, y, depth = np.concatenate(ends, axis=1)
-    if depth.min() < 1e-3:
-        return whole
-    x, y = np.clip(x / depth, -1.0, 1.0), np.clip(y / depth, -1.0, 1.0)
-    return float(x.min()), -1.0, float(x.max()), float(y.max())
+        (cx, cz, c, s), (a, b, _), (_, ceiling) = each.veil.axis, each.veil.shape, each.veil.span
+        a, b = 1.001 * a, 1.001 * b
+        for u, w in ((-a, -b), (-a, b), (a, -b), (a, b)):
+            px, pz = cx + u * c + w * s, cz - u * s + w * c
+            high_x = x[0] * px + x[1] * ceiling + x[2] * pz + x[3]
+            high_y = y[0] * px + y[1] * ceiling + y[2] * pz + y[3]
+            high = depth[0] * px + depth[1] * ceiling + depth[2] * pz + depth[3]
+            # The box's edge goes on falling where there is no ground, to the picture's lower edge.
+            fall = (high_y + high) / falling
+            low_x, low = high_x - fall * x[1], high - fall * depth[1]
+            if high < 1e-3 or low < 1e-3:
+                return whole
+            left = min(left, high_x / high, low_x / low)
+            right = max(right, high_x / high, low_x / low)
+            top = max(top, high_y / high)
+    return _within(left), -1.0, _within(right), _within(top)
+
+
+def _within(place: float) -> float:
+    return min(max(place, -1.0), 1.0)
 
 
 def nearest(view: ViewData, each: Seen, frame: tuple[float, float, float, float]) -> float:
@@ -105,20 +131,22 @@ def nearest(view: ViewData, each: Seen, frame: tuple[float, float, float, float]
     if each.distance <= 0.0:
         return -1.0
     left, bottom, right, top = frame
-    across, up = np.array([left, left, right, right]), np.array([bottom, top, bottom, top])
-    middle, right_way, up_way = rays(view)
-    rim = middle + across[:, None] * right_way + up[:, None] * up_way
+    (x, _, z), (right_x, _, right_z), (up_x, _, up_z) = _rays(view)
     # Level metres for one of depth: convex over the picture, so greatest in a corner.
-    depth = each.distance / max(float(np.hypot(rim[:, 0], rim[:, 2]).max()), 1e-6)
+    level = max(
+        math.hypot(x + across * right_x + up * up_x, z + across * right_z + up * up_z)
+        for across, up in ((left, bottom), (left, top), (right, bottom), (right, top))
+    )
+    depth = each.distance / max(level, 1e-6)
     p = view.projection
-    return float(np.clip((-p[2, 2] * depth + p[2, 3]) / depth, -1.0, 1.0))
+    return _within((-float(p[2, 2]) * depth + float(p[2, 3])) / depth)
 
 
 def fill(data: NDArray, view: ViewData, seen: Sequence[Seen]) -> None:
     """Write the block's part that depends on the veils; `data` is a block's record."""
     x, y, z = view.position
     flash = flash_of(view.frame, view.position)
-    more = np.zeros(3) if flash is None else VEIL_FLASH * flash.here
+    more = 0.0 if flash is None else VEIL_FLASH * flash.here
     data["veil_load"][len(seen) :, 0] = 0.0  # no rain
     for i, each in enumerate(seen):
         veil = each.veil
@@ -144,7 +172,9 @@ def fill(data: NDArray, view: ViewData, seen: Sequence[Seen]) -> None:
 def color(frame: FrameData, veil: VeilData) -> NDArray:
     """Of a veil, linear RGB: rain has the light all round it; a cloud takes what is above."""
     sky, snow = frame.sky, veil.snow
-    rain = (1.0 - veil.cloud) * veil_light(sky) + veil.cloud * cloud_light(sky)
+    rain = veil_light(sky)
+    if veil.cloud > 0.0:
+        rain = (1.0 - veil.cloud) * rain + veil.cloud * cloud_light(sky)
     if snow <= 0.0:
         return np.asarray(rain)
     # Snow is white in the same light; under a cloud in what comes from the sides.

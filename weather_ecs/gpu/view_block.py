@@ -21,18 +21,21 @@ def encode(linear: NDArray) -> NDArray:
     return np.maximum(linear, 0.0) ** (1.0 / 2.2)
 
 
+@lru_cache(maxsize=8)
 def drop_light(sky: SkyLight) -> NDArray:
     """What a drop shows, linear RGB: mostly the sky, as it turns the picture upside down."""
     zenith, horizon = np.array(sky.zenith_color), np.array(sky.horizon_color)
     return 0.25 * zenith + 0.70 * horizon + 0.05 * np.array(sky.ground_color)
 
 
+@lru_cache(maxsize=8)
 def veil_light(sky: SkyLight) -> NDArray:
     """Colour of rain so deep that nothing shines through, linear RGB: light from all round."""
     zenith, horizon = np.array(sky.zenith_color), np.array(sky.horizon_color)
     return 0.45 * zenith + 0.40 * horizon + 0.15 * np.array(sky.ground_color)
 
 
+@lru_cache(maxsize=8)
 def cloud_light(sky: SkyLight) -> NDArray:
     """The same under a thick cloud, linear RGB: from the sides, and grey from above."""
     zenith, horizon = np.array(sky.zenith_color), np.array(sky.horizon_color)
