@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 from imgui_bundle import imgui
@@ -30,6 +32,9 @@ class Hands:
         self.seen: dict[str, tuple[int, Box]] = {}  # frame and box, by ids and label
         self._ids: list[str] = []
         self._frame = 0
+        self._heard = {"on_key_release": 0, "on_text": 0}  # events that have come
+        for name in self._heard:
+            window.push_handlers(**{name: partial(self._hear, name)})
         for name in _ITEMS:
             setattr(imgui, name, self._telling(getattr(imgui, name)))
         push, pop = imgui.push_id, imgui.pop_id
@@ -54,10 +59,20 @@ class Hands:
 
     def until(self, question: Callable[[], Any], what: str, seconds: float = 60.0) -> None:
         """Let frames pass until something is so."""
+
+        def asked() -> bool:
+            if question():
+                return True
+            self.frames()
+            return False
+
+        self.wait(asked, what, seconds)
+
+    def wait(self, question: Callable[[], Any], what: str, seconds: float = 60.0) -> None:
+        """Ask until something is so; the question itself lets time pass."""
         end = time.monotonic() + seconds
         while not question():
             assert time.monotonic() < end, f"still not: {what}"
-            self.frames()
 
     def box(self, name: str) -> Box:
         """Where a widget is: its label, with the ids before it where that is not enough."""
@@ -113,13 +128,13 @@ class Hands:
     def key(self, *names: str) -> None:
         """Press keys, as xdotool calls them: ctrl+z."""
         for name in names:
-            self._tell("key", "--clearmodifiers", name)
-            self._settle()
+            with self._hearing("on_key_release", len(name.split("+"))):
+                self._tell("key", "--clearmodifiers", name)
 
     def type(self, text: str) -> None:
         """Type a text."""
-        self._tell("type", "--delay", 4, text)
-        self._settle()
+        with self._hearing("on_text", len(text)):
+            self._tell("type", "--delay", 4, text)
 
     def _called(self, name: str) -> list[str]:
         """What is to be seen of this name; what only looks like it counts where nothing else is."""
@@ -127,12 +142,16 @@ class Hands:
         found = [key for key in now if key == name or key.endswith(f"/{name}")]
         return found or [key for key in now if key.rpartition("/")[2].partition("##")[0] == name]
 
-    def _settle(self) -> None:
-        """Frames in which keys arrive: there is no telling whether all have come but by waiting."""
-        end = time.monotonic() + 0.25
-        self.frames(3)
-        while time.monotonic() < end:
-            self.frames()
+    def _hear(self, name: str, *_event: object) -> None:
+        self._heard[name] += 1
+
+    @contextmanager
+    def _hearing(self, name: str, count: int) -> Iterator[None]:
+        """Let frames pass until so many events of a kind have come, and what they do is done."""
+        wanted = self._heard[name] + count
+        yield
+        self.until(lambda: self._heard[name] >= wanted, f"{count} times {name}")
+        self.frames(4)  # widgets take one event a frame: a press, its release
 
     def _press(self, button: int, down: bool) -> None:
         self._tell("mousedown" if down else "mouseup", button)

@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import os
+import sys
+import time
 from dataclasses import replace
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 import pytest
 
 from weather_ecs import CloudFile, load_clouds, save_clouds
-from weather_ecs.components import Fog
+from weather_ecs.components import CloudModel, CloudSeed, Fog
+from weather_ecs.editor import files
 from weather_ecs.editor.files import Files
 from weather_ecs.editor.recent import Recent
+from weather_ecs.editor.saving import LARGE
 from weather_ecs.editor.session import Session
 from weather_ecs.editor.shared import Shared
+from weather_ecs.file_text import write_text
 
 
 @pytest.fixture
@@ -90,3 +96,63 @@ def test_what_cannot_be_written_is_told_and_nothing_is_lost(session: Session) ->
     path.mkdir()
     session.save()
     assert session.document.dirty and session.trouble and not session.changed_outside
+
+
+def many_seeds() -> CloudFile:
+    """A file that takes longer to save than a frame."""
+    seeds = tuple(CloudSeed((float(k), 100.0, 0.0), 50.0, 40.0, 50.0) for k in range(LARGE))
+    return CloudFile(models=(CloudModel("large", seeds),), fog=Fog(9000.0))
+
+
+def until_saved(session: Session) -> None:
+    """Frames pass until the save has ended."""
+    end = time.monotonic() + 60.0
+    while session.saving:
+        assert time.monotonic() < end
+        session.look_at_disk()
+        time.sleep(0.001)
+
+
+def test_a_large_document_is_saved_beside_the_frames(
+    session: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    go, interval = Event(), sys.getswitchinterval()
+    monkeypatch.setattr(files, "write_text", lambda *what: (go.wait(60.0), write_text(*what)))
+    document, done = session.document, []
+    document.apply("large", many_seeds())
+    session.save(then=lambda: done.append(document.dirty))
+    for _ in range(5):
+        session.look_at_disk()
+    assert session.saving and document.dirty and not done  # it is still being written
+    # What is changed meanwhile is not what is written, and remains to be saved.
+    document.apply("fog", replace(document.content, fog=Fog(123.0)))
+    go.set()
+    until_saved(session)
+    assert done == [True] and document.dirty and document.edited and seen(session) == 9000.0
+    assert sys.getswitchinterval() == interval and not session.trouble
+    document.undo()
+    assert not document.dirty
+    document.redo()
+    session.save()
+    until_saved(session)
+    assert not document.dirty and seen(session) == 123.0
+    assert len(load_clouds(document.path or "").models[0].seeds) == LARGE
+
+
+def test_who_leaves_waits_for_the_save_and_reads_what_went_wrong(session: Session) -> None:
+    document = session.document
+    document.apply("large", many_seeds())
+    session.save()
+    session.quit()
+    assert session.closing and not document.dirty and seen(session) == 9000.0
+    session.closing = False
+    assert document.path is not None
+    document.path.unlink()
+    document.path.mkdir()
+    document.apply("fog", replace(document.content, fog=Fog(123.0)))
+    session.save()
+    session.quit()
+    assert session.trouble and document.dirty and not session.closing and session.question is None
+    session.trouble = ""
+    session.quit()
+    assert session.question is not None

@@ -53,8 +53,8 @@ def at_rest(window: EditorWindow, hands: Hands) -> np.ndarray:
 
     def rests() -> bool:
         before = view.drawn
-        hands.frames(12)
-        return view.drawn == before
+        hands.frames(2)
+        return view.drawn == before and not window.shared.moves
 
     hands.until(rests, "the picture at rest")
     return picture(window)
@@ -113,6 +113,7 @@ def case_story(folder: Path) -> None:
     # Into a sky of a layer, with a climate that runs.
     hands.click("Sky and weather")
     hands.until(lambda: hands.shows("New##layer"), "the panels of the sky")
+    hands.click("Heights")  # nothing is drawn of the world meanwhile
     hands.click("New##layer")
     hands.click("Sky")
     hands.click("##add")
@@ -161,6 +162,27 @@ def case_hands(folder: Path) -> None:
     assert np.linalg.norm(np.subtract(after, before)) > 30.0
     assert document.steps == ("Move seed",)
     shared.gizmo = "none"
+
+    # At rest next to nothing is drawn; a mouse that moves is answered at the next tick.
+    at_rest(window, hands)
+    hands.until(lambda: not window.shared.moves, "nothing moves")
+
+    def tick() -> None:
+        window.dispatch_events()
+        window.tick()
+        window.dispatch_events()  # which draws what the tick has called for
+
+    def dozes() -> bool:
+        before = window.drawn
+        for _ in range(20):
+            tick()
+        return window.drawn - before <= 1
+
+    hands.wait(lambda: (tick(), dozes())[1], "the window at rest")
+    window.dispatch_event("on_mouse_motion", 300, 300, 1, 1)
+    before = window.drawn
+    tick()
+    assert window.drawn > before
 
     # The camera: turned, moved along, nearer.
     yaw, distance = view.camera.yaw, view.camera.distance

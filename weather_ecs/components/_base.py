@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import numbers
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from itertools import count
 from typing import Any, ClassVar, NamedTuple
 from weakref import WeakKeyDictionary
 
@@ -56,11 +57,13 @@ class Component:
 
     checks: ClassVar[dict[str, Check]] = {}
     _revision: ClassVar[list[int]] = [0]
+    # Two threads that make components at once never come to the same number.
+    _counts: ClassVar[Iterator[int]] = count(1)
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         if Component in cls.__bases__:  # a game's subclass counts with the class it extends
-            cls._revision = [0]
+            cls._revision, cls._counts = [0], count(1)
 
     def __setattr__(self, name: str, value: Any) -> None:
         check = self.checks.get(name)
@@ -72,7 +75,7 @@ class Component:
             field = f"{type(self).__name__}.{name}"
             raise InvalidValueError(field, error.value, error.allowed) from None
         _set(self, name, value)
-        self._revision[0] += 1
+        self._revision[0] = next(self._counts)
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"the fields of {type(self).__name__} cannot be deleted")
@@ -86,7 +89,7 @@ class Component:
 def set_unchecked(component: Component, name: str, value: Any) -> None:
     """Set a field whose value is known to be good (a system's own result)."""
     _set(component, name, value)
-    component._revision[0] += 1
+    component._revision[0] = next(component._counts)
 
 
 def to_float(field: str, value: Any, allowed: str) -> float:

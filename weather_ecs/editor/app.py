@@ -21,6 +21,7 @@ from weather_ecs.editor.help_page import draw_help
 from weather_ecs.editor.layout import GAP, Box, boxes, part_of, workspace_of
 from weather_ecs.editor.menu_table import WORKSPACES, commands_of, menus_of
 from weather_ecs.editor.menus import draw_bar, press_keys
+from weather_ecs.editor.pace import Pace
 from weather_ecs.editor.panel_guard import draw_panel
 from weather_ecs.editor.panels import Entry
 from weather_ecs.editor.session import Session
@@ -49,6 +50,8 @@ class EditorWindow(pyglet.window.Window):
         size: tuple[int, int],
         files: Files | None = None,
     ) -> None:
+        self.pace = Pace()
+        self.drawn = 0  # frames
         super().__init__(
             *size, caption=TITLE, resizable=True, vsync=True, visible=False, file_drops=True
         )
@@ -81,15 +84,16 @@ class EditorWindow(pyglet.window.Window):
 
     def play(self) -> None:
         """Run until the window is closed."""
-        pyglet.clock.schedule_interval(self.frame, SHORTEST)
+        pyglet.clock.schedule_interval(self.tick, SHORTEST)
         pyglet.app.run(interval=None)
 
     def shut(self) -> None:
         """Give everything back; a second time does nothing."""
-        pyglet.clock.unschedule(self.frame)
+        pyglet.clock.unschedule(self.tick)
         if not self._ready:
             return
         self._ready = False
+        self.session.finish_saving()
         self.switch_to()
         for _, panel in self.entries:
             close = getattr(panel, "close", None)
@@ -99,6 +103,17 @@ class EditorWindow(pyglet.window.Window):
         super().close()
 
     # One frame
+
+    def dispatch_event(self, *event: Any) -> Any:
+        """Whatever comes in may change what is seen."""
+        if event[0] not in ("on_draw", "on_refresh"):
+            self.pace.wake(time.perf_counter())
+        return super().dispatch_event(*event)
+
+    def tick(self, _dt: float = 0.0) -> None:
+        """A frame, if one is due: nothing is drawn anew that would come out the same."""
+        if self._ready and self.pace.due(time.perf_counter(), moves=self.shared.moves):
+            self.frame()
 
     def frame(self, _dt: float = 0.0) -> None:
         """Everything, once; `draw` of pyglet's calls `on_draw`."""
@@ -110,6 +125,7 @@ class EditorWindow(pyglet.window.Window):
             return
         now = time.perf_counter()
         dt, self._last = now - self._last, now
+        self.drawn += 1
         width, height = self.get_framebuffer_size()
         self.shared.pass_time(dt)
         self.shared.selection.clamp(self.document)

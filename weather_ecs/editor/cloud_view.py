@@ -61,7 +61,7 @@ class CloudView:
         hovered = view.show("cloud picture", self.target, rect, takes_mouse=not busy)
         if model is None:
             _hint(rect)
-        view.steer(self.camera, rect.height, shared.dt)
+        view.steer(self.camera, rect.height, min(shared.dt, 0.1))
         if hovered and imgui.is_mouse_double_clicked(0):
             shared.frame_wanted = True
 
@@ -89,7 +89,9 @@ class CloudView:
         choice = (shared.selection.seed, shared.selection.root)
         seen = (model, shared.number, where, rect.pixels, modes, choice)
         moves = seen != self._seen or self._unsettled > 0.0
-        if not self.sharpness.wants(shared.dt, moves=moves):
+        wanted = self.sharpness.wants(shared.dt, moves=moves)
+        shared.moves |= moves or not self.sharpness.rests
+        if not wanted:
             return
         pixels = self.sharpness.pixels(rect.pixels)
         self._seen = seen

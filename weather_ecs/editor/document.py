@@ -187,11 +187,13 @@ class Document:
         self.forget_problem()
         self.mark_saved(path, text)
 
-    def mark_saved(self, path: Path | None, text: str) -> None:
-        """The content is what the file at `path` says, in this text."""
-        self.end_gesture()
+    def mark_saved(self, path: Path | None, text: str, content: Content | None = None) -> None:
+        """The file at `path` says this, in this text: the content as it is now, or as it was."""
+        said = self.content if content is None else content
+        if said is self.content:
+            self.end_gesture()
         self.path, self.text = path, text
-        self._saved = self.saved_content = self.content
+        self._saved = self.saved_content = said
 
     def mark_unsaved(self) -> None:
         """What is here is nowhere else: the file on disk is gone, or bad."""

@@ -70,6 +70,7 @@ class Exports:
     def draw(self, document: Document, shared: Shared) -> None:
         """The window that asks, or the one that shows how far it is."""
         if self._job is not None:
+            shared.moves = True
             self._go_on(shared)
         elif self.kind is not None:
             self._draw_question(document, shared)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from enum import Enum
 from pathlib import Path
 from time import monotonic
@@ -37,6 +38,7 @@ class ChangedOnDiskError(WeatherError):
     """A file that somebody else has written meanwhile: saving would undo that."""
 
     def __init__(self, path: Path) -> None:
+        self.path = path
         super().__init__(f"{path}: was changed on disk; reload it, save anyway, or save as another")
 
 
@@ -86,19 +88,41 @@ class Files:
 
     def save(self, document: Document, *, anyway: bool = False) -> None:
         """Write the document to its file."""
+        self.save_as(document, self.may_save(document, anyway=anyway))
+
+    def save_as(self, document: Document, path: str | os.PathLike[str]) -> None:
+        """Write the document to a file, which is its own from now on."""
+        content = document.content
+        self.saved(document, path, content, self.writing(document, path)())
+
+    def may_save(self, document: Document, *, anyway: bool = False) -> Path:
+        """Where `save` would write; raises as it does where it may not."""
         if document.path is None:
             raise FileNotFoundError("the document has no file yet")
         if not anyway and self._compare(document) is OnDisk.CHANGED:
             raise ChangedOnDiskError(document.path)
-        self.save_as(document, document.path)
+        return document.path
 
-    def save_as(self, document: Document, path: str | os.PathLike[str]) -> None:
-        """Write the document to a file, which is its own from now on."""
+    def writing(self, document: Document, path: str | os.PathLike[str]) -> Callable[[], str]:
+        """The work of a save, which any thread may do: it writes the document as it is now, and
+        returns the text. What comes out of it is for `saved`.
+        """
+        name, content = str(Path(path).absolute()), document.content
+        text, before = document.text, document.saved_content
+
+        def work() -> str:
+            kept = kept_text(name, text, before, content)
+            write_text(name, kept)
+            return kept
+
+        return work
+
+    def saved(
+        self, document: Document, path: str | os.PathLike[str], content: Content, text: str
+    ) -> None:
+        """The document was written when it had this content; the file is its own from now on."""
         target = Path(path).absolute()
-        content = document.content
-        text = kept_text(str(target), document.text, document.saved_content, content)
-        write_text(str(target), text)
-        document.mark_saved(target, text)
+        document.mark_saved(target, text, content)
         self._noticed(document)
         self.recent.add(target)
 

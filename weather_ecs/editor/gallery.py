@@ -105,6 +105,7 @@ class Gallery:
             wanted = (model, self._first + column, *look)
             if column < len(self._taken) and self._taken[column] == wanted:
                 continue
+            shared.moves = True
             if self._waited < PAUSE:
                 return
             while len(self._targets) <= column:

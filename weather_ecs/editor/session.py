@@ -7,6 +7,7 @@ from pathlib import Path
 
 from weather_ecs.editor.document import Document
 from weather_ecs.editor.files import ChangedOnDiskError, Files
+from weather_ecs.editor.saving import LARGE, Saving
 from weather_ecs.editor.shared import Shared
 from weather_ecs.errors import WeatherError
 
@@ -28,7 +29,13 @@ class Session:
         self.wants_path: tuple[str, Callable[[Path], None], bool] | None = None
         self.changed_outside = False  # the file is another one, and so is what is here
         self._mine = False  # and what is here is to be written over it
+        self._saving: tuple[Saving, Callable[[str], None]] | None = None
         self.closing = False  # the window may close
+
+    @property
+    def saving(self) -> bool:
+        """Whether a save is under way."""
+        return self._saving is not None
 
     # What menus call
 
@@ -49,7 +56,7 @@ class Session:
         if self.document.path is None:
             self.save_as(then)
         else:
-            self._write(lambda: self.files.save(self.document, anyway=self._mine), then)
+            self._write(lambda: self.files.may_save(self.document, anyway=self._mine), then)
 
     def keep_mine(self) -> None:
         """What is here counts, whatever another program has written; the next save says so."""
@@ -59,12 +66,13 @@ class Session:
         """Ask for a path and write there."""
         self._ask_path(
             "Save as",
-            lambda path: self._write(lambda: self.files.save_as(self.document, path), then),
+            lambda path: self._write(lambda: path, then),
             saves=True,
         )
 
     def reload(self) -> None:
         """Take what the file has become."""
+        self.finish_saving()
         self.changed_outside = self._mine = False
         name = self.document.name
         if self._tried(lambda: self.files.reload(self.document)):
@@ -88,6 +96,7 @@ class Session:
 
     def load(self, path: Path) -> bool:
         """Open a file whatever is lost; one that is bad leaves everything as it is."""
+        self.finish_saving()
         if not self._tried(lambda: self.files.open(self.document, path)):
             return False
         self.changed_outside = self._mine = False
@@ -98,7 +107,12 @@ class Session:
         return True
 
     def look_at_disk(self) -> None:
-        """Once a frame: what others have done to the file."""
+        """Once a frame: what has become of a save, and what others have done to the file."""
+        if self._saving is not None:
+            if not self._saving[0].done:
+                self.shared.moves = True
+                return
+            self.finish_saving()
         edited = self.document.edited
         news = self.files.follow(self.document)
         if news is None:
@@ -109,7 +123,17 @@ class Session:
 
     # How
 
+    def finish_saving(self) -> bool:
+        """Wait for a save that is under way, if there is one; False where it has failed."""
+        saving, self._saving = self._saving, None
+        if saving is None:
+            return True
+        work, ended = saving
+        return self._tried(lambda: ended(work.result()))
+
     def _unless_unsaved(self, act: Act) -> None:
+        if not self.finish_saving():
+            return  # first that is to be read
         if self.document.dirty:
             self.question = act
         else:
@@ -124,21 +148,32 @@ class Session:
         self.shared.selection.clamp(self.document)
         self.shared.workspace = "cloud"
 
-    def _write(self, write: Act, then: Act | None) -> None:
+    def _write(self, where: Callable[[], Path], then: Act | None) -> None:
+        """Save to the path that `where` gives; a large document in a thread of its own."""
+        self.finish_saving()
+        document = self.document
         try:
-            written = self._tried(write)
-        except ChangedOnDiskError:
-            path = self.document.path
-            if path is not None and path.is_file():
+            path = where()
+        except ChangedOnDiskError as error:
+            if error.path.is_file():
                 self.changed_outside = True  # asks which of the two counts
                 return
-            # A folder, say: what is the matter with it the attempt tells.
-            written = self._tried(lambda: self.files.save(self.document, anyway=True))
-        if written:
+            path = error.path  # a folder, say: what is the matter with it the attempt tells
+        content = document.content
+
+        def ended(text: str) -> None:
+            self.files.saved(document, path, content, text)
             self.changed_outside = self._mine = False
-            self.shared.say(f"Saved {self.document.path}")
+            self.shared.say(f"Saved {document.path}")
             if then is not None:
                 then()
+
+        work = self.files.writing(document, path)
+        if sum(len(model.seeds) for model in content.models) < LARGE:
+            self._tried(lambda: ended(work()))
+            return
+        self.shared.say(f"Saving {path}")
+        self._saving = Saving(work), ended
 
     def _quit(self) -> None:
         self.closing = True
@@ -146,8 +181,6 @@ class Session:
     def _tried(self, act: Act) -> bool:
         try:
             act()
-        except ChangedOnDiskError:
-            raise
         except WeatherError as error:
             self.trouble = str(error)
         except OSError as error:

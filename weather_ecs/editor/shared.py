@@ -77,6 +77,7 @@ class Shared:
     frame_wanted: bool = True  # the view is to bring the whole cloud into the picture
     focus: str = "model"  # what copy and paste mean: "model", "seed", "root", or another panel's
     dt: float = 1.0 / 60.0  # s of the machine's clock since the last frame
+    moves: bool = True  # something will look different in the next frame, without an event
     note: str = ""
     note_age: float = 0.0  # s
     note_bad: bool = False
@@ -96,7 +97,7 @@ class Shared:
 
     def pass_time(self, dt: float) -> None:
         """A frame has begun, `dt` seconds after the last."""
-        self.dt = dt
+        self.dt, self.moves = dt, False
         self.note_age += dt
         if self.note_age > NOTE_LASTS * (2.0 if self.note_bad else 1.0):
             self.note = ""

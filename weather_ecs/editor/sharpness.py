@@ -34,6 +34,11 @@ class Sharpness:
         self._moved, self._is_sharp = moves, self._draws >= 1.0
         return True
 
+    @property
+    def rests(self) -> bool:
+        """Whether the last picture has all of its pixels: no other is to come by itself."""
+        return self._is_sharp and not self._moved
+
     def pixels(self, whole: tuple[int, int]) -> tuple[int, int]:
         """Of the picture that is drawn now."""
         return max(round(whole[0] * self._draws), 1), max(round(whole[1] * self._draws), 1)

@@ -42,7 +42,7 @@ class WorldView:
         rect = view.space_left()
         if rect.width < 2.0 or rect.height < 2.0:
             return
-        studio.picture(rect.pixels, shared.dt, document.revision)
+        shared.moves |= studio.picture(rect.pixels, shared.dt, document.revision)
         hovered = view.show("world picture", studio.target, rect)
         self._steer(studio, shared, hovered)
         _draw_readout(studio, rect)

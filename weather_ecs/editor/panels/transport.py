@@ -30,7 +30,9 @@ class Transport:
 
     def update(self, document: Document, shared: Shared) -> None:
         """The simulation's share of a frame."""
-        studio_of(shared).update(document, shared)
+        studio = studio_of(shared)
+        studio.update(document, shared)
+        shared.moves |= studio.simulation.running or studio.simulation.seeking
 
     def close(self) -> None:
         """Give the simulation and its views back, if anybody has asked for them."""
