@@ -19,6 +19,8 @@ from .sky_dome import dome, glare_frame
 SKY_UNIT = 12  # of the weather's map
 JUMP = 25.0  # m the camera moves in one map's time that calls for a fresh one at once
 CHANGE = 0.12  # likewise for colours and cover
+MIRRORED = 16.0  # times as much may change where the map is seen in water alone
+HASTE = 3  # times as many rows a frame are painted then
 
 
 class Sky:
@@ -49,6 +51,7 @@ class Sky:
         self._far_array = ctx.vertex_array(self._far, far, self._dome[1])
         self._row = 0
         self._painted: NDArray | None = None  # state of the map now shown
+        self._shown = True  # as the sky itself, and not only in water
         self._state: NDArray = np.zeros(0)
 
     @property
@@ -68,9 +71,13 @@ class Sky:
         if environment.sky is not None:
             environment.sky.use(self._bake, SKY_UNIT)
         self.ctx.enable_only(moderngl.NOTHING)
-        if self._painted is None or _jumped(self._painted, self._state):
+        shown = environment.draws_sky
+        fresh = shown and not self._shown
+        self._shown = shown
+        if fresh or _jumped(self._painted, self._state, 1.0 if shown else MIRRORED):
             self._rows(1, 0, self.size)
-            self._rows(0, 0, self.size)
+            if shown:
+                self._rows(0, 0, self.size)
             self._row = 0
             self._painted = self._state
             return
@@ -80,7 +87,8 @@ class Sky:
             self._targets.append(self._targets.pop(0))
             self._row = 0
             self._painted = self._state
-        rows = min(self.rows, self.size - self._row)
+        rows = self.rows if shown else HASTE * self.rows
+        rows = min(rows, self.size - self._row)
         self._rows(2, self._row, rows)
         self._row += rows
 
@@ -134,5 +142,5 @@ def _state(camera: NDArray, env: Environment) -> NDArray:
     return np.concatenate([scaled, np.array([*camera, *rain]) / JUMP])
 
 
-def _jumped(before: NDArray, now: NDArray) -> bool:
-    return bool(np.abs(before - now).max() > 1.0)
+def _jumped(before: NDArray | None, now: NDArray, most: float) -> bool:
+    return before is None or bool(np.abs(before - now).max() > most)
