@@ -227,3 +227,39 @@ def test_fog_takes_the_suns_light_and_hands_it_on_from_all_round() -> None:
         out = under_fog(light, 0.5, depth)
         total = out.sun * 0.5 + 0.5 * (out.zenith + out.horizon)
         assert np.allclose(total, 0.9 / (1.0 + 0.075 * depth), rtol=1e-6)
+
+
+@pytest.mark.parametrize("field", ["latitude", "longitude"])
+@pytest.mark.parametrize("value", [1e9, -181.0, math.nan, math.inf, None, "north"])
+def test_places_out_of_range_change_nothing(field: str, value: object) -> None:
+    weather, air = made(latitude=45.0, longitude=7.5)
+    before = weather.snapshot()
+    with pytest.raises(InvalidValueError, match=rf"Atmosphere\.{field}"):
+        setattr(air, field, value)
+    assert weather.snapshot() == before
+    weather.close()
+
+
+def test_a_sun_of_the_games_own_at_the_zenith_and_straight_below() -> None:
+    weather = Weather()
+    sun = Sun(direction=(0.0, 1.0, 0.0))
+    esper.create_entity(sun)
+    light = []
+    for y in (1.0, -1.0):
+        sun.direction = (0.0, y, 0.0)
+        esper.process(0.05)
+        light.append(weather.sample((0.0, 0.0, 0.0)).light)
+    assert light[0] > light[1] >= 0.0 and all(map(math.isfinite, light))
+    with pytest.raises(InvalidValueError, match=r"Sun\.direction"):
+        sun.direction = (0.0, 0.0, 0.0)
+    weather.close()
+
+
+def test_the_year_at_the_poles_is_finite() -> None:
+    weather, air = made(latitude=90.0)
+    for month in range(1, 13):
+        for latitude in (90.0, -90.0):
+            air.latitude, air.time = latitude, f"2025-{month:02}-21T12:00:00Z"
+            light = weather.light
+            assert all(map(math.isfinite, (*light.sun_color, *light.zenith_color)))
+    weather.close()

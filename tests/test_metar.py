@@ -5,6 +5,7 @@ from __future__ import annotations
 import builtins
 import math
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import esper
@@ -370,3 +371,11 @@ def test_without_the_library_the_error_names_the_extra(monkeypatch):
         with pytest.raises(MissingExtraError, match=r"weather_ecs\[metar\]"):
             weather.apply_metar(REAL[0])
         assert weather.whole is None
+
+
+def test_there_is_no_report_from_the_future():
+    """A report says the day of a month and no more: any day gives the same weather, at any time."""
+    rest = "0825Z 21022KT 9999 BKN022 17/15 Q1002"
+    made = [read_metar(f"EHAM {day:02}{rest}") for day in (1, 2, 28, 29, 30, 31)]
+    assert len({replace(report.weather, name="any") for report in made}) == 1
+    assert len({str(report).splitlines()[0] for report in made}) == 6  # and it is shown

@@ -215,6 +215,17 @@ def test_no_rainbow_without_rain_or_under_a_high_sun(stage: Stage) -> None:
     assert not sky.has_bow
 
 
+def test_a_rainbow_too_faint_for_any_pixel_is_not_drawn(stage: Stage) -> None:
+    bow(stage, 10.0)
+    sky = stage.weather._renderer._sky  # type: ignore[union-attr]
+    assert sky is not None and sky.has_bow
+    stage.air.rainbow = 0.01
+    faint, _ = bow(stage, 10.0)
+    assert not sky.has_bow
+    stage.air.rainbow = 0.0
+    assert np.abs(faint - bow(stage, 10.0)[0]).max() < 0.6 / 255
+
+
 def test_the_scene_stays_in_front(stage: Stage) -> None:
     near = stage.picture(0.0, 0.3, depth=0.5)
     assert np.allclose(near, (64 / 255, 128 / 255, 191 / 255), atol=2 / 255)
@@ -327,3 +338,29 @@ def test_closed_clouds_leave_no_sun_for_a_rainbow(stage: Stage) -> None:
         assert data is not None
         strengths.append(data.rainbow)
     assert strengths[0] == 1.0 > strengths[1] > 0.7 and strengths[2] == 0.0
+
+
+@pytest.mark.parametrize("latitude", [23.44, -23.44])
+def test_a_sun_straight_above_and_straight_below(stage: Stage, latitude: float) -> None:
+    """There is no azimuth to go by; halo, bow, disc and map are asked for all the same."""
+    stage.air.time, stage.air.latitude = "2025-06-21T12:02:00Z", latitude
+    stage.air.halo = stage.air.rainbow = 1.0
+    if latitude < 0.0:
+        stage.air.time = "2025-06-21T00:02:00Z"
+    esper.create_entity(RainArea((0.0, -4000.0), (1500.0, 1500.0), 20.0))
+    up = stage.picture(0.0, math.radians(89.9), 70.0)
+    light = stage.weather.light
+    assert all(math.isfinite(c) for c in (*light.sun_color, *light.zenith_color))
+    assert math.isfinite(stage.weather.sample((0.0, 0.0, 0.0)).light)
+    sun = stage.weather._frame().atmosphere.sun_direction
+    assert math.copysign(1.0, latitude) * sun[1] > 0.99999
+    if latitude > 0.0:
+        rows, columns = SIZE[1] // 2, SIZE[0] // 2
+        assert up[rows - 2 : rows + 2, columns - 2 : columns + 2].min() > 0.9  # the disc
+        angles = np.degrees(np.arccos(np.clip(stage.directions() @ np.array(sun), -1.0, 1.0)))
+        rings = profile(up, angles, np.array([15.0, 17.0, 19.0]))
+        assert np.ptp(rings, axis=0).max() < 0.2  # even round the zenith
+    else:
+        assert np.median(up) < 0.3  # but for stars
+    for heading in (0.0, math.pi / 2.0):
+        assert np.isfinite(stage.picture(heading, 0.2)).all()
