@@ -18,6 +18,7 @@ DRAW = ProgramKey(vertex="sky_ring.vert", fragment="sky_ring.frag")
 AROUND = 96  # segments of a ring
 PARTS = 32  # of the half of it that is above
 HALO_LIGHT, BOW_LIGHT = 0.15, 0.21  # at full strength, beside a sun of 1 and as it is encoded
+FAINTEST = 0.5 / 255.0  # light that changes no pixel
 _FORMAT = "4f4 3f4"
 
 
@@ -28,6 +29,7 @@ class SkyRings:
         self._program = shaders.program(DRAW)
         self._halo = self._make(ctx, HALO[::3], halo()[::3])
         self._bow = self._make(ctx, BOW[::2], rainbow()[::2])
+        self._brightest = float(rainbow().max())
 
     def _make(
         self, ctx: moderngl.Context, angles: NDArray, colors: NDArray
@@ -71,7 +73,9 @@ class SkyRings:
         x, _, z = view.position
         strength = bow_strength(rain_along(view.frame.areas, (x, z), flat))
         strength = np.convolve(np.pad(strength, 2, mode="edge"), np.full(5, 0.2), mode="valid")
-        return strength if strength.max() > 0.01 else None
+        light = BOW_LIGHT * data.rainbow * float(sun_light(data).max()) * self._brightest
+        peak = float(strength.max())
+        return strength if peak > 0.01 and peak * light > FAINTEST else None
 
     def draw_bow(self, data: AtmosphereData, sun: NDArray, strength: NDArray) -> None:
         """Opposite the sun, with the strengths of `rain`."""
