@@ -88,12 +88,15 @@ def main(folder: str | None = None) -> None:
         target = window._gl.detect_framebuffer(0)
         target.viewport = (0, 0, *size)
         game.draw(target)
+        color = window._gl.renderbuffer(size, 4)
+        kept = window._gl.framebuffer([color])
+        window._gl.copy_framebuffer(kept, target)
         plain = read_pixels(*size).astype("i2")
         for screen, wetness in SHOWN:
             overlay.show_readout = overlay.show_map = True
             overlay.say("Drizzle: fine drops that barely wet the ground")
             bring(game.letter, wetness, screen is Screen.END)
-            game.draw(target)
+            window._gl.copy_framebuffer(target, kept)
             prepare_for_pyglet(window)
             overlay.draw(screen, game, 1234.5)
             after = read_pixels(*size)
@@ -107,6 +110,8 @@ def main(folder: str | None = None) -> None:
                 save_png(
                     Path(folder) / f"{screen.value}_{wetness:g}_{size[0]}x{size[1]}.png", after
                 )
+        kept.release()
+        color.release()
     window.close()
     print(json.dumps(report))
 

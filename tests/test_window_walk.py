@@ -28,15 +28,21 @@ class Walk:
         self.screen, self.folder = screen, folder
         self._log = folder / "log.jsonl"
         self._output = folder / "output.txt"
+        self._lines: list[dict[str, Any]] = []
+        self._read = 0  # bytes of the log that are in them
         self.process: subprocess.Popen[str] = screen.start(
             TESTS / "window_walk.py", self._log, *arguments, cwd=folder, log=self._output
         )
 
     def lines(self) -> list[dict[str, Any]]:
-        if not self._log.exists():
-            return []
-        whole = self._log.read_text(encoding="utf-8").rpartition("\n")[0]
-        return [json.loads(text) for text in whole.splitlines()]
+        """A line for every frame so far."""
+        if self._log.exists():
+            with self._log.open("rb") as log:
+                log.seek(self._read)
+                whole = log.read().rpartition(b"\n")
+            self._read += len(whole[0]) + len(whole[1])
+            self._lines += [json.loads(text) for text in whole[0].splitlines()]
+        return self._lines
 
     def now(self) -> dict[str, Any]:
         assert self.process.poll() is None, self._output.read_text()[-4000:]
