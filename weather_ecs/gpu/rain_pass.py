@@ -18,7 +18,7 @@ from weather_ecs.gpu.rain_blocks import RAIN_DRAW, RAIN_STEP
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.streak_list import StreakList
 
-GROUP = 128  # drops in a work group; also in rain_step.comp
+GROUP = 64 * 32  # drops that a work group of rain_step.comp moves
 SMALLEST_LIST, LARGEST_LIST = 4096, 16_384  # impacts; every reader goes over the whole list
 # A set that no view has used for so many draws is given back.
 _KEPT_DRAWS = 600
@@ -196,7 +196,7 @@ class RainPass:
 
     def draw(self, view: ViewData) -> None:
         """Draws the streaks into the bound framebuffer."""
-        self.bind_blocks(view)
+        self._draw_block.bind()
         seen = self._observed[view.key]
         for container in view.containers:
             drops = seen.sets[container.key]
@@ -210,11 +210,6 @@ class RainPass:
             if drops.streaks is None:
                 drops.streaks = StreakList(self._ctx, drops, kind.draw, kind.far)
             drops.streaks.draw(kind.cull, count, self._order)
-
-    def bind_blocks(self, view: ViewData) -> None:
-        """Bind what drawing reads: the block of containers, and the air's."""
-        self._draw_block.bind()
-        self._air.use(view)
 
     def fill_container(self, container: ContainerData, view: ViewData) -> None:
         """Upload the block RainDraw of one container, unless it is the one that is there."""

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.physics.rain_place import from_container, in_half_disc, to_container
-from weather_ecs.physics.turbulence import AirFlow, eddies, mean_velocity
-from weather_ecs.physics.words import hash_unit, hash_word
+from weather_ecs.physics.turbulence import AirFlow, eddies, felt_shares, mean_velocity
+from weather_ecs.physics.words import hash_word
 
 if TYPE_CHECKING:
     from weather_ecs.physics.rain_step import Step
@@ -67,41 +67,44 @@ def _felt(p: NDArray, own: NDArray, flow: AirFlow) -> NDArray[np.float32]:
 
 
 def _border_places(
-    h: NDArray[np.uint32], reach: NDArray, own: NDArray, flow: AirFlow, s: Step
+    word: NDArray[np.uint32], reach: NDArray, own: NDArray, flow: AirFlow, s: Step
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
     """Places near the border, and which count; see the shader."""
     forward, lateral, bottom, height = map(F, s.to_shape)
     dt = F(s.wind[3])
-    eddy, fall = F(EDDY_REACH * math.hypot(*flow.gains)) * dt, -own[:, 1] * dt
-    low = np.minimum(np.maximum(eddy - fall, F(0.0)), F(0.5) * height)
-    high = np.minimum(np.maximum(fall + eddy, F(0.0)), F(0.5) * height)
+    fall = -own[:, 1] * dt
+    felt = np.asarray(flow.gains, F) * felt_shares(-own[:, 1], flow)
+    eddy = F(EDDY_REACH) * np.sqrt((felt * felt).sum(axis=1)) * dt
+    low = np.clip(eddy - fall, F(0.0), F(0.5) * height)
+    high = np.clip(fall + eddy, F(0.0), F(0.5) * height)
     middle = height - low - high
     top = np.array([[0.0, bottom + height, 0.0]], F)
     shift = np.asarray(s.to_axis[:2], F) - np.asarray(s.from_axis[:2], F)
     moved = (mean_velocity(top, flow) + own)[:, [0, 2]] * dt - shift
     side = (np.sqrt((moved * moved).sum(axis=1)) + eddy) / min(forward, lateral)
     side = np.minimum(side, reach)
-    inner = reach - side
     level = F(HALF_PI) * reach * reach * (low + high)
     rim = F(HALF_PI) * side * (F(2.0) * reach - side) * middle
     back = F(2.0) * reach * side * middle
-    u, v, w = hash_unit(h), hash_unit(h ^ U(0x9E3779B9)), hash_unit(h ^ U(0x85EBCA6B))
-    pick = hash_unit(h ^ U(0xC2B2AE35)) * (level + rim + back)
-    on_level, on_rim = pick < level, (pick >= level) & (pick < level + rim)
-    y = np.where(on_level, w * (low + high), low + middle * w)
-    y = np.where(on_level & (y >= low), y + middle, y)
-    r = np.where(
-        on_rim,
-        np.sqrt(inner * inner + (reach * reach - inner * inner) * u),
-        reach * np.sqrt(u),
-    )
+    u, v, w, pick = _units(word)
+    pick = pick * (level + rim + back)
+    on_level, on_back = pick < level, pick >= level + rim
+    y = w * np.where(on_level, low + high, middle)
+    y = y + np.where(on_level, np.where(y >= low, middle, F(0.0)), low)
+    inner = np.where(on_level, F(0.0), reach - side)
+    r = np.sqrt(inner * inner + (reach * reach - inner * inner) * u)
     angle = (v - F(0.5)) * F(math.pi)
     q = np.stack([r * np.cos(angle), r * np.sin(angle)], axis=1)
     flat = np.stack([side * u, reach * (F(2.0) * v - F(1.0))], axis=1)
-    on_back = ~(on_level | on_rim)
-    once = ~on_back | (np.sqrt((flat * flat).sum(axis=1)) < inner)
     q = np.where(on_back[:, None], flat, q).astype(F)
-    p = np.empty((len(h), 3), F)
+    p = np.empty((len(word), 3), F)
     p[:, [0, 2]] = from_container(q, s.to_axis, s.to_shape)
     p[:, 1] = bottom + y
-    return p, once
+    return p, ~on_back | (np.sqrt((q * q).sum(axis=1)) < inner)
+
+
+def _units(word: NDArray[np.uint32]) -> NDArray[np.float32]:
+    """Four numbers in [0, 1) of 16 bits, (4, n)."""
+    other = hash_word(word ^ U(0x9E3779B9))
+    parts = [half for h in (word, other) for half in (h >> U(16), h & U(0xFFFF))]
+    return np.stack(parts).astype(F) * F(1.0 / 65536.0)

@@ -91,21 +91,30 @@ def mean_velocity(p: ArrayLike, flow: AirFlow) -> NDArray[np.float32]:
     return (np.asarray(flow.wind, F) * share[:, None]).astype(F)
 
 
+def felt_shares(speed: ArrayLike, flow: AirFlow) -> NDArray[np.float32]:
+    """Of the eddies of each octave, the share that a thing takes on which falls so fast, (n, 3).
+
+    Drag makes it follow with the time constant speed / g, and it meets K speed / sqrt(3) rad/s of
+    waves of every direction.
+    """
+    fall = np.asarray(speed, F)
+    lag = np.array([octave[3] for octave in flow.octaves], F) * (fall * fall * F(LAG))[:, None]
+    return (F(1.0) / np.sqrt(lag * lag + F(1.0))).astype(F)
+
+
 def eddies(p: ArrayLike, flow: AirFlow, speed: ArrayLike | None = None) -> NDArray[np.float32]:
     """The turbulence alone at world points (n, 3), m/s.
 
     With `speed`, (n,), m/s: the share of it that a thing takes on which falls through it so fast.
-    Drag makes it follow with the time constant speed / g, and it meets K speed / sqrt(3) rad/s of
-    waves of every direction.
     """
+    felt = None if speed is None else felt_shares(speed, flow)
     at = np.asarray(p, F)
     height = np.maximum(at[:, 1] - F(flow.ground), F(0.0))
     total = np.zeros_like(at)
-    for given, octave, axes in zip(flow.gains, flow.octaves, FRAMES, strict=True):
+    for k, (given, octave, axes) in enumerate(zip(flow.gains, flow.octaves, FRAMES, strict=True)):
         gain: NDArray | np.float32 = F(given)
-        if speed is not None:
-            lag = F(octave[3]) * np.asarray(speed, F) ** 2 * F(LAG)
-            gain = gain / np.sqrt(lag * lag + F(1.0))[:, None]
+        if felt is not None:
+            gain = gain * felt[:, k : k + 1]
         frame, number = axes.astype(F), F(octave[3])
         q = at @ frame * number + np.asarray(octave[:3], F)
         s, c = np.sin(q), np.cos(q)

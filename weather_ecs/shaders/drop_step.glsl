@@ -75,16 +75,11 @@ bool follow(inout vec2 at, vec2 drift, float s)
     return true;
 }
 
-// Keeps a drop that has moved by `drift` to its container; true where it is now elsewhere.
-bool keep_in_container(uint id, float s, vec2 drift, inout vec3 p)
+// Puts in again a drop that has moved by `drift` and left its container.
+void keep_in_container(uint id, float s, vec2 drift, inout vec3 p)
 {
-    bool elsewhere = false;
-    // The size has changed: the container's own axes keep the drop's place.
-    if (from_shape.xy != to_shape.xy)
-        p.xz = from_container(to_container(p.xz, from_axis, from_shape.xy), from_axis, to_shape.xy);
-
-    // It has moved and turned. What is in both places stays; what is left outside is carried on
-    // until it comes to where the container has only just arrived.
+    // The container has moved and turned. What is in both places stays; what is left outside is
+    // carried on until it comes to where the container has only just arrived.
     if (!in_half_disc(to_container(p.xz, to_axis, to_shape.xy), s)) {
         vec2 at = p.xz;
         bool arrived = false;
@@ -93,18 +88,11 @@ bool keep_in_container(uint id, float s, vec2 drift, inout vec3 p)
             arrived = !in_half_disc(to_container(at - drift, from_axis, to_shape.xy), s);
         }
         p.xz = arrived ? at : from_container(resettle(id, s), to_axis, to_shape.xy);
-        elsewhere = true;
     }
-    // It has risen, sunk or grown; or the drop has reached the bottom, and another begins.
-    if (from_shape.w != to_shape.w)
-        p.y = to_shape.z + (p.y - from_shape.z) * (to_shape.w / from_shape.w);
+    // The container has risen or sunk; or the drop has reached the bottom, and another begins.
     float turns = floor((p.y - to_shape.z) / to_shape.w);
-    if (turns != 0.0) {
-        p.y -= turns * to_shape.w;
-        if (turns < 0.0) p.xz = from_container(resettle(id, s), to_axis, to_shape.xy);
-        elsewhere = true;
-    }
-    return elsewhere;
+    p.y -= turns * to_shape.w;
+    if (turns < 0.0) p.xz = from_container(resettle(id, s), to_axis, to_shape.xy);
 }
 
 #ifdef SHELTER
@@ -143,47 +131,57 @@ bool find_hit(vec3 before, vec3 p, inout vec3 v, out vec3 normal)
 }
 #endif
 
-// True where the drop has come below the surface on a way that find_hit can look at. It has landed
-// then, and v says so, as for one that came in under cover.
-bool step_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
+// In still air, m/s.
+vec3 own_velocity(uint id, float quantile)
 {
-    float s = birth.z;
 #ifdef SNOW
-    vec3 own = flake_velocity(id, birth.w, rain_law);
+    return flake_velocity(id, quantile, rain_law);
 #else
-    vec3 own = vec3(0.0, -drop_speed(drop_diameter(birth.w, rain_law)), 0.0);
+    return vec3(0.0, -drop_speed(drop_diameter(quantile, rain_law)), 0.0);
 #endif
-    float fall = -own.y;
+}
+
+// The first half of a step, of all drops: the drop goes on. False where it has left its container or
+// begins anew, and is to come in by the second half.
+bool carry_drop(uint id, vec4 birth, inout vec3 p, inout vec3 v)
+{
+    vec3 own = own_velocity(id, birth.w);
     vec3 drift = air_velocity(p) + own;
-    bool elsewhere = id >= rain_fresh;
-    bool landed = !elsewhere && has_landed(v);
-    vec3 motion = landed || elsewhere ? drift : v;
-    if (elsewhere) {
+    bool landed = has_landed(v);
+    // Drag brings a drop to the air's own motion with the time constant of its terminal speed.
+    vec3 motion = landed ? drift : v;
+    motion += (drift - motion) * (1.0 - exp(-rain_dt * 9.8 / max(-own.y, 0.1)));
+    p += motion * rain_dt;
+    // The size has changed: the container's own axes keep the drop's place.
+    if (from_shape.xy != to_shape.xy)
+        p.xz = from_container(to_container(p.xz, from_axis, from_shape.xy), from_axis, to_shape.xy);
+    if (from_shape.w != to_shape.w)
+        p.y = to_shape.z + (p.y - from_shape.z) * (to_shape.w / from_shape.w);
+    bool stays = id < rain_fresh && floor((p.y - to_shape.z) / to_shape.w) == 0.0
+        && in_half_disc(to_container(p.xz, to_axis, to_shape.xy), birth.z);
+    if (!(landed && stays)) v = motion;
+    return stays;
+}
+
+// The second half, of those few: where the drop is now, if it comes in anywhere alike.
+void place_drop(uint id, vec4 birth, vec3 motion, inout vec3 p)
+{
+    if (id >= rain_fresh) {
         p.xz = from_container(birth.xy, to_axis, to_shape.xy);
         p.y = to_shape.z + to_shape.w * hash_unit(id * 2u + 1u);
-    } else {
-        float dt = rain_dt;
-        // Drag brings a drop to the air's own motion with the time constant of its terminal speed.
-        motion += (drift - motion) * (1.0 - exp(-dt * 9.8 / max(fall, 0.1)));
-        p += motion * dt;
-        elsewhere = keep_in_container(id, s, motion.xz * dt, p);
-    }
-#ifdef STEADY_AIR
-    if (elsewhere) motion = drift;
-#else
-    // A container that turns or grows has other places that are new; there is a map for these.
-    bool sought = id < rain_fresh && air_gain.w > 0.0
-        && from_axis.zw == to_axis.zw && from_shape == to_shape;
-    if (elsewhere) motion = come_in(id, s, own, sought, p);
-#endif
-    landed = landed && !elsewhere;
+    } else keep_in_container(id, birth.z, motion.xz * rain_dt, p);
+}
+
+// True where a drop in the air has come below the surface, or come in there. It has landed then, and
+// v says so, as for one that came in under cover.
+bool land_drop(vec3 p, inout vec3 v)
+{
 #ifdef SHELTER
     vec3 m = shelter_place(p);
-    if (!landed && in_shelter_map(m) && below_texel(m) > 0.0) {
+    if (!has_landed(v) && in_shelter_map(m) && below_texel(m) > 0.0) {
         v = vec3(p.x, NO_IMPACT, p.z);
-        return !elsewhere;
+        return true;
     }
 #endif
-    if (!landed) v = motion;
     return false;
 }

@@ -9,9 +9,23 @@ out vec3 out_velocity;
 
 void main()
 {
+    uint id = uint(gl_VertexID);
     vec3 p = in_position;
     vec3 v = in_velocity;
-    bool sinks = step_drop(uint(gl_VertexID), in_birth, p, v);
+    bool stays = carry_drop(id, in_birth, p, v);
+    if (!stays) {
+        place_drop(id, in_birth, v, p);
+        vec3 own = own_velocity(id, in_birth.w);
+#ifdef STEADY_AIR
+        v = air_velocity(p) + own;
+#else
+        uint word;
+        int left;
+        begin_entry(id, word, left);
+        while (!try_entry(word, left, in_birth.z, own, p, v));
+#endif
+    }
+    bool sinks = land_drop(p, v) && stays;
 #if defined(SHELTER) && !defined(SNOW)
     vec3 normal;
     if (sinks) find_hit(in_position, p, v, normal);

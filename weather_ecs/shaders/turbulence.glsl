@@ -4,7 +4,6 @@
 
 const float LOWEST_WIND = 0.03;    // m above the ground; below, the wind is that there
 const float HIGHEST_WIND = 300.0;  // m; above, too
-const float EDDY_HALF_PI = 1.57079633;
 const mat3 EDDY_AXES[3] = mat3[3](
     mat3(0.66666667, 0.66666667, -0.33333333,
          -0.33333333, 0.66666667, 0.66666667,
@@ -24,18 +23,32 @@ vec3 mean_velocity(vec3 p)
     return air_wind.xyz * exp2(air_shape.x * log2(height * air_wind.w));
 }
 
+// sin(2 pi x) up to a quarter turn, to 1e-6. Drops take dozens of sines, and where these are not in
+// hardware they are most of the work.
+vec3 quarter_sine(vec3 x)
+{
+    vec3 w = x * x;
+    return x * (6.2831640 + w * (-41.337142 + w * (81.340769 - 70.993430 * w)));
+}
+
+// cos(2 pi x).
+vec3 wave(vec3 x)
+{
+    return quarter_sine(0.25 - abs(x - floor(x + 0.5)));
+}
+
 vec3 eddies_of(int k, vec3 p, float height)
 {
     vec4 octave = air_octave[k];
     mat3 axes = EDDY_AXES[k];
-    vec3 q = p * axes * octave.w + octave.xyz;
-    vec3 s = sin(q);
-    vec3 c = cos(q);
+    vec3 q = (p * axes * octave.w + octave.xyz) * 0.15915494;
+    vec3 c = wave(q);
+    vec3 s = wave(q - 0.25);
     vec3 u = axes * (s.zxy + c.yzx);
-    float a = min(octave.w * height, EDDY_HALF_PI);
-    float up = sin(a);
-    float level = cos(a);
-    return air_gain[k] * vec3(up * u.x + level * u.z, up * u.y, up * u.z - level * u.x);
+    float a = min(octave.w * height * 0.15915494, 0.25);
+    vec2 ground = quarter_sine(vec3(a, 0.25 - a, 0.0)).xy;
+    return air_gain[k] * vec3(ground.x * u.x + ground.y * u.z, ground.x * u.y,
+                              ground.x * u.z - ground.y * u.x);
 }
 
 vec3 eddies(vec3 p)
@@ -47,11 +60,15 @@ vec3 eddies(vec3 p)
 // Of the eddies of each octave, the share that a thing takes on which falls through them at `speed`:
 // drag makes it follow with the time constant speed / 9.8, and it meets so many waves a second, of
 // directions of which the vertical is a third.
-vec3 eddies_felt(vec3 p, float speed)
+vec3 felt_shares(float speed)
+{
+    vec3 lag = vec3(air_octave[0].w, air_octave[1].w, air_octave[2].w) * (speed * speed * 0.0589145);
+    return inversesqrt(lag * lag + 1.0);
+}
+
+vec3 eddies_felt(vec3 p, vec3 felt)
 {
     float height = max(p.y - air_shape.y, 0.0);
-    vec3 lag = vec3(air_octave[0].w, air_octave[1].w, air_octave[2].w) * (speed * speed * 0.0589145);
-    vec3 felt = inversesqrt(lag * lag + 1.0);
     return eddies_of(0, p, height) * felt.x + eddies_of(1, p, height) * felt.y
         + eddies_of(2, p, height) * felt.z;
 }
