@@ -196,7 +196,7 @@ class RainPass:
 
     def draw(self, view: ViewData) -> None:
         """Draws the streaks into the bound framebuffer."""
-        self._draw_block.bind()
+        self.bind_blocks(view)
         seen = self._observed[view.key]
         for container in view.containers:
             drops = seen.sets[container.key]
@@ -210,6 +210,11 @@ class RainPass:
             if drops.streaks is None:
                 drops.streaks = StreakList(self._ctx, drops, kind.draw, kind.far)
             drops.streaks.draw(kind.cull, count, self._order)
+
+    def bind_blocks(self, view: ViewData) -> None:
+        """Bind what drawing reads: the block of containers, and the air's."""
+        self._draw_block.bind()
+        self._air.use(view)
 
     def fill_container(self, container: ContainerData, view: ViewData) -> None:
         """Upload the block RainDraw of one container, unless it is the one that is there."""
