@@ -7,8 +7,11 @@
 //   turned:      through the centre (the wedge lost and the wedge gained face each other)
 //   risen, sunk: by the height (the vertical is a ring)
 // A map of both kinds that ends where the container stood before is applied again, until it ends
-// in what is new. These maps keep an even filling even, however far and fast the observer goes, so that the law of
-// Eq. 2 holds at every moment and not only for an observer at rest.
+// in what is new. These maps keep an even filling even, however far and fast the observer goes, so
+// that the law of Eq. 2 holds at every moment and not only for an observer at rest.
+//
+// A step has two halves: all drops go on, and the few that have left come in again. A compiler for
+// vectors works out for every drop what is behind a branch, so the second half is one of its own.
 #include "hash.glsl"
 #include "drop_law.glsl"
 #include "drop_weight.glsl"
