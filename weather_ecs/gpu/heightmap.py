@@ -30,6 +30,9 @@ __all__ = ["Footprint", "Heightmap", "fall_speed_of", "footprint"]
 
 _log = logging.getLogger("weather_ecs")
 
+# From [0, 1] to clip space, where the depth runs the same way.
+CLIP = np.array([[2.0, 0, 0, -1.0], [0, 2.0, 0, -1.0], [0, 0, 2.0, -1.0], [0, 0, 0, 1.0]])
+
 
 class Heightmap:
     """Depth of an observer's surroundings: a cached static layer, dynamic occluders over it."""
@@ -116,9 +119,7 @@ class Heightmap:
     def _draw(
         self, occluders: list[OccluderData], place: Footprint, target: moderngl.Framebuffer
     ) -> None:
-        # From [0, 1] to clip space, where the depth runs the same way.
-        clip = np.array([[2.0, 0, 0, -1.0], [0, 2.0, 0, -1.0], [0, 0, 2.0, -1.0], [0, 0, 0, 1.0]])
-        to_map = clip @ place.matrix()
+        to_map = CLIP @ place.matrix()
         self._meshes.draw([o for o in occluders if o.draw is None], to_map)
         for occluder in occluders:
             if occluder.draw is None:

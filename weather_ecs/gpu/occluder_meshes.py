@@ -80,19 +80,19 @@ class OccluderMeshes:
                 if key not in self._meshes:
                     self._meshes[key] = _Mesh(self._ctx, self._program, occluder)
             group.append(occluder.transform)
-        # How far a sphere of radius 1 reaches in the map, which is sheared.
-        reach = np.linalg.norm(to_map[:2, :3], axis=1)
         drawn = 0
         for key, transforms in groups.items():
             mesh = self._meshes[key]
-            places = np.array(transforms, np.float64)
-            centers = places[:, :3, :3] @ mesh.center + places[:, :3, 3]
-            grown = np.sqrt((places[:, :3, :3] ** 2).sum(axis=(1, 2))) * mesh.radius
-            at = np.abs(centers @ to_map[:2, :3].T + to_map[:2, 3])
-            within = (at <= 1.0 + grown[:, None] * reach).all(axis=1)
-            if within.any():
-                mesh.draw(to_map @ places[within])
-                drawn += int(within.sum())
+            matrices = to_map @ np.array(transforms, np.float64)
+            level = matrices[:, :2]
+            at = np.abs(level[:, :, :3] @ mesh.center + level[:, :, 3])
+            # How far the sphere about a mesh reaches in the map, which is sheared.
+            reach = mesh.radius * np.sqrt(np.square(level[:, :, :3]).sum(axis=2))
+            within = (at <= 1.0 + reach).all(axis=1)
+            count = int(np.count_nonzero(within))
+            if count:
+                mesh.draw(matrices if count == len(matrices) else matrices[within])
+                drawn += count
         return drawn
 
     def keep(self, occluders: Iterable[OccluderData]) -> None:

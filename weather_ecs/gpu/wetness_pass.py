@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import moderngl
 import numpy as np
@@ -23,8 +24,7 @@ from weather_ecs.gpu.rain_pass import SHELTER_UNIT
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.wetness_far import HALF, WATCHED, FarField, rains_within, wet_within
 from weather_ecs.gpu.wetness_map import WetnessMap
-from weather_ecs.physics.drops import slope
-from weather_ecs.physics.front import SETTLED
+from weather_ecs.physics.front import SETTLED, steepness
 from weather_ecs.physics.snow_cover import melt_rate
 from weather_ecs.physics.wet_map import BANDS, RINGS, MapPlace, place_over
 
@@ -184,31 +184,30 @@ class WetnessPass:
         low = [c - footprint.half for c in footprint.center]
         data["wet_shelter"] = (*low, 1.0 / texel, 0.0)
         data["wet_heights"] = (footprint.top, 0.0, 0.0, 0.0)
-        share, melt = frame.air.snow_share, float(melt_rate(frame.air.wet_bulb))
+        share, melt = frame.air.snow_share, _melt_rate(frame.air.wet_bulb)
         data["wet_snow"] = (share, melt, share * frame.flakes.settling, 0.0)
         data["wet_far_place"] = (*seen.far.middle, 0.5 / HALF, 0.0)
         block["wet_ages"].reshape(-1)[:] = np.maximum(frame.time - seen.times, 0.0)
         data["wet_bands"] = place.rows
         data["wet_rings"] = [max(round(radius / texel), 1) for radius in RINGS]
+        data["wet_areas"] = self._fill_areas(view)
+        block.upload()
+        block.bind()
+
+    def _fill_areas(self, view: ViewData) -> int:
+        """The areas that rain, at most MAX_AREAS, the nearest; returns how many they are."""
+        frame, data = view.frame, self._block.data
         areas = frame.areas[frame.areas["rain_rate"] > 0.0]
         if len(areas) > MAX_AREAS:
             away = np.linalg.norm(areas["center"] - np.array(view.position)[[0, 2]], axis=1)
             areas = areas[np.argsort(away - areas["radii"][:, 0], kind="stable")[:MAX_AREAS]]
-        count = data["wet_areas"] = len(areas)
-        heading = areas["heading"]
-        block["wet_area_axis"][:count, :2] = areas["center"]
-        block["wet_area_axis"][:count, 2] = np.cos(heading)
-        block["wet_area_axis"][:count, 3] = np.sin(heading)
-        block["wet_area_shape"][:count, :2] = areas["radii"]
-        block["wet_area_shape"][:count, 2] = np.minimum(areas["soft_edge"], areas["radii"][:, 1])
-        block["wet_area_shape"][:count, 3] = areas["ceiling"]
-        block["wet_area_rate"][:count, 0] = areas["rain_rate"]
-        block["wet_area_rate"][:count, 1] = slope(np.maximum(areas["rain_rate"], 1e-3))
-        fronts = frame.fronts
-        for k, key in enumerate(areas["key"].tolist()):
-            block["wet_area_dry"][k] = fronts.get(key, SETTLED)
-        block.upload()
-        block.bind()
+        for k, row in enumerate(areas.tolist()):
+            key, (x, z), (a, b), heading, rate, soft, ceiling = row
+            data["wet_area_axis"][k] = (x, z, math.cos(heading), math.sin(heading))
+            data["wet_area_shape"][k] = (a, b, min(soft, b), ceiling)
+            data["wet_area_rate"][k, :2] = (rate, steepness(rate))
+            data["wet_area_dry"][k] = frame.fronts.get(key, SETTLED)
+        return len(areas)
 
     def _publish(self, seen: _Observed) -> None:
         far, place = (*seen.far.middle, 2.0 * HALF), seen.place
@@ -266,6 +265,11 @@ class WetnessPass:
             self._array.release()
             self._block.release()
             self._program = None
+
+
+@lru_cache(maxsize=8)
+def _melt_rate(wet_bulb: float) -> float:
+    return float(melt_rate(wet_bulb))
 
 
 def _drop_map(seen: _Observed) -> None:

@@ -142,7 +142,7 @@ class ExtractSystem:
         if seen == self._seen and self._frame is not None:
             return self._frame
         frame = self._extract(state)
-        self._seen = self._look(state)  # new clouds may have been lit
+        self._seen = seen
         return frame
 
     def _look(self, state: WeatherState) -> tuple[Any, ...]:
