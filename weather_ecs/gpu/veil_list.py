@@ -127,19 +127,33 @@ def _within(place: float) -> float:
 
 
 def nearest(view: ViewData, each: Seen, frame: tuple[float, float, float, float]) -> float:
-    """Depth, -1 to 1, before which there is nothing of a veil in this rectangle of the picture."""
-    if each.distance <= 0.0:
-        return -1.0
+    """Depth, -1 to 1, before which nobody sees anything of a veil in this part of the picture."""
     left, bottom, right, top = frame
-    (x, _, z), (right_x, _, right_z), (up_x, _, up_z) = _rays(view)
-    # Level metres for one of depth: convex over the picture, so greatest in a corner.
-    level = max(
-        math.hypot(x + across * right_x + up * up_x, z + across * right_z + up * up_z)
+    (x, y, z), (right_x, right_y, right_z), (up_x, up_y, up_z) = _rays(view)
+    inside = each.distance <= 0.0
+    # Metres for one of depth, level ones from outside: convex over the picture, so greatest in a
+    # corner.
+    most = max(
+        math.hypot(
+            x + across * right_x + up * up_x,
+            y + across * right_y + up * up_y if inside else 0.0,
+            z + across * right_z + up * up_z,
+        )
         for across, up in ((left, bottom), (left, top), (right, bottom), (right, top))
     )
-    depth = each.distance / max(level, 1e-6)
+    depth = (_unseen(each.veil) if inside else each.distance) / max(most, 1e-6)
     p = view.projection
+    if p[3, 2] == 0.0 or depth < 1e-6:
+        return -1.0
     return _within((-float(p[2, 2]) * depth + float(p[2, 3])) / depth)
+
+
+def _unseen(veil: VeilData) -> float:
+    """m from within a veil through which nothing is seen of it: its drops are, or are too few."""
+    path = LEAST / max(veil.extinction * (1.0 + veil.ragged), 1e-9)
+    # What the drops leave: t^2 / (2 shown), from there on t - shown / 2. See shaders/veil.frag.
+    inner = math.sqrt(2.0 * veil.shown * path)
+    return inner if inner < veil.shown else path + 0.5 * veil.shown
 
 
 def fill(data: NDArray, view: ViewData, seen: Sequence[Seen]) -> None:

@@ -18,6 +18,14 @@ noperspective in vec2 vs_place;
 #ifdef ALONE
 noperspective in vec4 vs_own;
 noperspective in float vs_rise;
+// A software driver fetches a block's numbers anew for every few pixels; these it has at hand.
+flat in vec4 vs_load;   // as veil_load; y: level of f of the full rate
+flat in vec4 vs_shown;  // as veil_shown; z, w: view_depth
+flat in vec4 vs_tint;
+flat in vec4 vs_fog;    // as fog_shown; w: its extinction
+#ifdef CURTAIN
+flat in vec4 vs_curtain;
+#endif
 #endif
 out vec4 color;
 
@@ -64,12 +72,35 @@ float rays_of_rain(float u)
     return 0.5 * wave(u * 0.83) + 0.35 * wave(u * 2.17 + 0.37) + 0.15 * wave(u * 5.71 + 0.71);
 }
 
+#ifdef ALONE
+#define FULL(i) vs_load.y
+#define LOAD(i) vs_load
+#define SHOWN_TO(i) vs_shown
+#define TINT(i) vs_tint
+#define CURTAIN_OF(i) vs_curtain
+#define FOG vs_fog.rgb
+#define DEPTH vs_shown.zw
+
+float left_of(float distance)
+{
+    return exp2(-vs_fog.w * distance);
+}
+#else
+#define FULL(i) veil_from[i].z
+#define LOAD(i) veil_load[i]
+#define SHOWN_TO(i) veil_shown[i]
+#define TINT(i) veil_tint[i]
+#define CURTAIN_OF(i) veil_curtain[i]
+#define FOG fog_shown.rgb
+#define DEPTH view_depth
+#define left_of fog_left
+#endif
+
 // Of one area: its light times its optical depth (ALONE: its light), and that depth. The index is a constant wherever this is
 // called: a software driver gathers what a variable one asks for, at four times the cost.
 vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_t, float over_t)
 {
-    vec4 from = veil_from[i];
-    vec4 load = veil_load[i];
+    vec4 load = LOAD(i);
 #ifdef BELOW
     float t0 = 0.0;
     float t1 = end * vs_rise > 1.0 ? 1.0 / vs_rise : end;
@@ -82,8 +113,8 @@ vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_
 #ifdef SHOWN
     // The drops' share falls from 1 at the observer to 0 at the distance veil_shown, overhead too:
     // by the level distance alone, there would be a hole in the veil at the zenith.
-    float shown = veil_shown[i].x * over_t;
-    float x = min(t1 * per_t * veil_shown[i].y, 1.0);
+    float shown = SHOWN_TO(i).x * over_t;
+    float x = min(t1 * per_t * SHOWN_TO(i).y, 1.0);
     t0 = max(t0, shown * x * (1.0 - 0.5 * x));
 #endif
 
@@ -101,13 +132,13 @@ vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_
     float aside = lies.w;
     float lowest = aside * aside * over_a;
     float outer = max((1.0 - lowest) * over_a, 0.0);
-    float inner = max((from.z - lowest) * over_a, 0.0);
+    float inner = max((FULL(i) - lowest) * over_a, 0.0);
     float half_chord = sqrt(outer);
     float x0 = t0 - middle;
     float x1 = max(t1 - middle, x0);
 #ifdef CHANGING
     float path = changing_path(
-        outer, inner, x0, x1, load.z - ray.y * middle, ray.y, veil_dry[i], from.w
+        outer, inner, x0, x1, load.z - ray.y * middle, ray.y, veil_dry[i], veil_from[i].w
     );
 #else
     float path = over_level(outer, x0, x1) - over_level(inner, x0, x1);
@@ -119,7 +150,7 @@ vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_
 #ifdef CURTAIN
     // Thin below the cloud; and from afar rays of rain, which the wind slants, ragged at the sides.
     float fall = load.z - ray.y * (middle + 0.5 * (near + far));
-    vec4 curtain = veil_curtain[i];
+    vec4 curtain = CURTAIN_OF(i);
     float drift = (curtain.z * own.y - curtain.w * own.x) * fall;  // of what fell straight
     float u = (aside - drift) * sqrt(over_a);
     float rays = curtain.x * (0.35 + 0.55 * min(lowest, 1.0)) * rays_of_rain(u + curtain.y);
@@ -129,12 +160,12 @@ vec4 seen_of(int i, vec3 ray, float end, float rise, float over_rise, float per_
     // What there is to see of the rain lies about one optical depth deep in it, at most in its
     // middle.
     float along = near + (far - near) / (2.0 + optical);
-    vec4 tint = veil_tint[i];
+    vec4 tint = TINT(i);
     vec3 own_light = tint.rgb;
 #ifdef DARKER
     own_light *= 1.0 - tint.a * optical / (1.0 + optical);
 #endif
-    own_light = mix(fog_shown.rgb, own_light, fog_left((along + middle) * per_t));
+    own_light = mix(FOG, own_light, left_of((along + middle) * per_t));
 #ifdef ALONE
     return vec4(own_light, optical);
 #else
@@ -169,13 +200,8 @@ void main()
 #elif defined(SCENE)
     float end = farthest();
 #else
-    ivec2 texel = ivec2(gl_FragCoord.xy - view_origin.xy);
-#ifndef ALONE
-    // Where the host has no depth, one texel stands for all.
-    texel = min(texel, textureSize(scene_depth, 0) - 1);
-#endif
-    float depth = texelFetch(scene_depth, texel, 0).r;
-    float end = depth >= 1.0 ? 1e5 : view_depth.y / (depth * 2.0 - 1.0 + view_depth.x);
+    float depth = texture(scene_depth, vs_place).r;
+    float end = depth >= 1.0 ? 1e5 : DEPTH.y / (depth * 2.0 - 1.0 + DEPTH.x);
 #endif
     float rise = abs(ray.y) < 1e-6 ? 1e-6 : ray.y;
     float over_rise = 1.0 / rise;
@@ -191,11 +217,10 @@ void main()
     color = seen * (1e3 / end);  // for a km of depth
 #else
     float opacity = 1.0 - exp(-seen.a);
-    if (opacity < 0.002) discard;
 #ifdef ALONE
     vec3 own_light = seen.rgb;
 #else
-    vec3 own_light = seen.rgb / seen.a;
+    vec3 own_light = seen.rgb / max(seen.a, 1e-9);
 #endif
     color = vec4(own_light + pixel_grain() / max(opacity, 0.05), opacity);
 #endif

@@ -12,8 +12,7 @@ out vec4 color;
 
 void main()
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy - view_origin.xy);
-    float depth = texelFetch(scene_depth, texel, 0).r;
+    float depth = texture(scene_depth, vs_place).r;
     float t = view_depth.y / (depth * 2.0 - 1.0 + view_depth.x);
     vec4 per_km = texture(veil_sheet, vs_place);
     float opacity = 1.0 - exp(-1e-3 * per_km.a * t);
