@@ -1,0 +1,32 @@
+"""The OpenGL context of a pyglet window, current for a while; pyglet itself is not imported."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+
+def can_be_drawn_to(window: Any) -> bool:
+    """Whether it is open and has a size."""
+    if window.context is None or window.has_exit:
+        return False
+    width, height = window.get_size()
+    return width > 0 and height > 0
+
+
+@contextmanager
+def current(window: Any) -> Iterator[None]:
+    """Make a window's context current, and afterwards the one that was before."""
+    gl = sys.modules.get("pyglet.gl")  # where there is a window, pyglet has loaded it
+    before = None if gl is None else gl.current_context
+    if window is None or before is window.context:
+        yield
+        return
+    window.switch_to()
+    try:
+        yield
+    finally:
+        if before is not None:
+            before.set_current()
