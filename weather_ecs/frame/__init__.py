@@ -35,10 +35,12 @@ from weather_ecs.frame.precipitation import (
     NO_FRONTS,
     RAIN,
     SNOW,
+    AreaRow,
     DropLook,
     SnowLook,
     Spells,
     SplashLook,
+    plain_areas,
 )
 from weather_ecs.frame.sky import (
     LIGHT_DTYPE,
@@ -63,6 +65,7 @@ __all__ = [
     "SNOW",
     "STRIKE_DTYPE",
     "AirData",
+    "AreaRow",
     "AtmosphereData",
     "CloudLook",
     "CloudShapeData",
@@ -86,4 +89,5 @@ __all__ = [
     "WetnessData",
     "WindProfile",
     "empty",
+    "plain_areas",
 ]

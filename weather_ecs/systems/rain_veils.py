@@ -6,9 +6,14 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
-import numpy as np
-
-from weather_ecs.frame import SNOW, ContainerData, FrameData, VeilData
+from weather_ecs.frame import (
+    SNOW,
+    AreaRow,
+    ContainerData,
+    FrameData,
+    VeilData,
+    plain_areas,
+)
 from weather_ecs.physics.container import Container
 from weather_ecs.physics.front import SETTLED, steepness
 from weather_ecs.systems.falls import falls, shown_distance, snow_shown_distance
@@ -37,24 +42,23 @@ def veils(
         for c in containers
         if not c.key & 1
     }
-    for row in frame.areas:
-        container = placed.get(int(row["key"]))
-        hidden = int(row["key"]) in frame.carried and eye - float(row["ceiling"]) >= _OVER
-        if container is not None and container.visible and not hidden:
+    shown = [placed[key].visible if key in placed else False for key in frame.areas["key"].tolist()]
+    for row in plain_areas(frame.areas[shown]):
+        container = placed[row.key]
+        if row.key not in frame.carried or eye - row.ceiling < _OVER:
             yield _veil(frame, row, container, counts, eye)
 
 
 def _veil(
     frame: FrameData,
-    row: np.void,
+    row: AreaRow,
     container: Container,
     counts: Mapping[tuple[int, int], float],
     eye: float,
 ) -> VeilData:
-    look, rate, key = frame.look, float(row["rain_rate"]), int(row["key"])
-    a, b = row["radii"].tolist()
-    soft = min(float(row["soft_edge"]), b)
-    h, ceiling = float(row["heading"]), float(row["ceiling"])
+    look, rate, key, ceiling = frame.look, row.rain_rate, row.key, row.ceiling
+    a, b = row.radii
+    soft = min(row.soft_edge, b)
     shown = lost = snow = 0.0
     near = max(0.0, 1.0 - container.distance / look.reach)
     for fall in falls(rate, frame.air, frame.flakes):
@@ -71,7 +75,7 @@ def _veil(
                 far = shown_distance(look, round(fall.rate, 1), count)
                 shown += near * fall.part * far
     veil = VeilData(
-        axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
+        axis=(*row.center, math.cos(row.heading), math.sin(row.heading)),
         shape=(a, b, min((1.0 - soft / b) ** 2, 0.9999)),
         span=(min(container.bottom, eye) - _BELOW, ceiling),
         dry=frame.fronts.get(key, SETTLED),

@@ -12,7 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
-from weather_ecs.frame import SNOW, ContainerData, FrameData, ViewData
+from weather_ecs.frame import SNOW, AreaRow, ContainerData, FrameData, ViewData, plain_areas
 from weather_ecs.physics.camera import Camera
 from weather_ecs.physics.container import (
     Area,
@@ -128,20 +128,13 @@ class RainView:
             seen.floor = self._floor.lowest(
                 frame.occluders, camera.position, camera.heading, look.reach
             )
-        rows: dict[int, np.void] = {}
+        rows: dict[int, AreaRow] = {}
         found: dict[int, Container] = {}
-        for row in frame.areas[_in_view(frame.areas, camera)]:
-            area_key = int(row["key"])
-            before = seen.placed.get(area_key)
-            area = Area(
-                tuple(row["center"].tolist()),
-                tuple(row["radii"].tolist()),
-                float(row["heading"]),
-                float(row["ceiling"]),
-            )
-            rows[area_key] = row
-            found[area_key] = place(
-                area,
+        for row in plain_areas(frame.areas[_in_view(frame.areas, camera)]):
+            before = seen.placed.get(row.key)
+            rows[row.key] = row
+            found[row.key] = place(
+                Area(row.center, row.radii, row.heading, row.ceiling),
                 camera.position,
                 camera.heading,
                 camera.half_width,
@@ -160,7 +153,7 @@ class RainView:
         data: list[ContainerData] = []
         for k in sorted(shown, key=lambda k: (-shown[k], k)):
             count = max(settings.drops * settings.budget * shown[k] / total, 1.0)
-            for fall in falls(float(rows[k]["rain_rate"]), frame.air, frame.flakes):
+            for fall in falls(rows[k].rain_rate, frame.air, frame.flakes):
                 part = max(count * fall.part * fall.busy, 1.0)
                 data.extend(self._data(k, rows[k], placed[k].container, fall, part, settings.drops))
         return data
@@ -168,7 +161,7 @@ class RainView:
     def _data(
         self,
         key: int,
-        row: np.void,
+        row: AreaRow,
         container: Container,
         fall: Fall,
         count: float,
@@ -179,13 +172,13 @@ class RainView:
         dry = self._fronts.get(key, SETTLED)
         if fall.kind == SNOW and dry != SETTLED:
             # Flakes come and go together, with the water that is down.
-            way = float(row["ceiling"]) - (container.bottom + 0.3 * container.height)
-            load *= float(water_arrived(way, dry, float(row["rain_rate"])))
+            way = row.ceiling - (container.bottom + 0.3 * container.height)
+            load *= float(water_arrived(way, dry, row.rain_rate))
             dry = SETTLED
         load /= 2.0 * (1.0 - 0.5 * COUNT_FADE)
-        h = float(row["heading"])
-        radii = row["radii"].tolist()
-        axis = axis_of(container)
+        axis, shape = axis_of(container), shape_of(container)
+        area_axis = (*row.center, math.cos(row.heading), math.sin(row.heading))
+        area_shape = (*row.radii, min(row.soft_edge, row.radii[1]), row.ceiling)
         # A whole cylinder is the half and its twin, turned about; they share the drops.
         halves = [(0, axis, max(count * (1.0 - container.rear), 1.0))]
         if container.whole:
@@ -195,9 +188,9 @@ class RainView:
             ContainerData(
                 key=4 * key + 2 * fall.kind + rear,
                 axis=half,
-                shape=shape_of(container),
-                area_axis=(*row["center"].tolist(), math.cos(h), math.sin(h)),
-                area_shape=(*radii, min(float(row["soft_edge"]), radii[1]), float(row["ceiling"])),
+                shape=shape,
+                area_axis=area_axis,
+                area_shape=area_shape,
                 dry=dry,
                 law=fall.law,
                 load=load / part,
@@ -228,12 +221,12 @@ def _velocity(
     seen: _Observed, position: tuple[float, float, float], dt: float
 ) -> tuple[float, float, float]:
     """The observer's velocity, smoothed over a few frames."""
-    now = [(p - q) / dt for p, q in zip(position, seen.position, strict=True)]
-    if math.hypot(*now) > _FASTEST:
+    (x, y, z), (was_x, was_y, was_z), (vx, vy, vz) = position, seen.position, seen.velocity
+    x, y, z = (x - was_x) / dt, (y - was_y) / dt, (z - was_z) / dt
+    if math.hypot(x, y, z) > _FASTEST:
         return (0.0, 0.0, 0.0)
     blend = 1.0 - math.exp(-dt / 0.05)
-    x, y, z = (v + (n - v) * blend for v, n in zip(seen.velocity, now, strict=True))
-    return (x, y, z)
+    return (vx + (x - vx) * blend, vy + (y - vy) * blend, vz + (z - vz) * blend)
 
 
 def _air_run(
