@@ -29,7 +29,7 @@ class QualitySettings:
     veil: bool  # rain beyond the containers
     budget: float = 1.0  # share of the drops that is used, 0.05 to 1
     cloud_billboards: int = 3_000  # of the clouds that are not impostors
-    cloud_impostors: int = 3  # pictures of far clouds taken in one draw
+    cloud_impostors: int = 3  # pictures of far clouds taken anew in one draw
     cloud_tile: int = 512  # texels, height of the largest of them; they are twice as wide
     cloud_atlas: int = 2048  # texels, height of the texture that holds them; twice as wide
 

@@ -15,29 +15,9 @@ from numpy.typing import NDArray
 
 from weather_ecs.gpu.cloud_atlas import Atlas, Tile
 from weather_ecs.gpu.cloud_bounds import picture_bounds
+from weather_ecs.gpu.cloud_kept import KEPT_DTYPE
 from weather_ecs.gpu.cloud_scene import CloudScene
 from weather_ecs.gpu.cloud_store import StoredShape
-
-KEPT_DTYPE = np.dtype(
-    [
-        ("tile", "i4", 3),  # column, row, height; height 0: there is no picture
-        ("old_tile", "i4", 3),
-        ("share", "f4"),  # of the newer picture
-        ("quad", "f8", (3, 3)),  # middle from the cloud's position, half width, half height, m
-        ("old_quad", "f8", (3, 3)),
-        ("cuts", "f4", 4),  # of the picture's corners, as PictureBounds has them
-        ("way", "f8", 3),  # from the camera to the cloud, when it was taken
-        ("version", "i8"),  # of the shape's absorption
-        ("shape", "i8"),  # the shape's key
-        ("pixels", "f4"),  # of the scene, when it was taken, and what its tile should have been
-        ("need", "f4"),
-        ("stamp", "i8"),  # of sky and look
-        ("state", "f4", 5),  # growth, mode, darkness, shear
-        ("seen", "i8"),  # draw at which it was last in the picture
-        ("real", "?"),  # drawn with billboards at the last draw
-        ("large", "?"),  # and too large for a picture, not only waiting for one
-    ]
-)
 
 FADE = 0.5  # s, in which a new picture replaces the old one
 CLOSE = 1.35  # reaches from a cloud's centre, nearer than which there are no impostors
@@ -46,6 +26,7 @@ SHARE = 0.5  # of the atlas, that the pictures of what is in view may take
 ENOUGH = 0.7  # texels of a picture for each of its pixels
 LARGE = 1.6  # pixels for each texel of the largest picture, above which billboards are drawn
 UNIT = 96  # texels, height of a picture as the budget counts them
+WAITING = 4  # times as many are taken of clouds that have none yet
 PIXELS_OFF = 1.3  # parallax that is let be
 _STATE = np.array([0.04, 0.05, 0.06, 0.04, 0.04])  # changes that are let be
 
@@ -152,15 +133,23 @@ class Impostors:
         chosen = chosen[np.argsort(-urgency, kind="stable")]
         largest = self._room(size[scene.visible & ~(wants & is_real)], largest)
         plan = Plan(real, [], largest)
-        room = float(budget * UNIT * UNIT)
-        for index in (*must.tolist(), *chosen[:budget].tolist()):
-            side = _side(float(size[index]), largest)
-            forced = len(plan.take) < len(must)
-            if not forced and plan.take and side * side > room:
+        for index in must.tolist():
+            plan.take.append((index, _side(float(size[index]), largest)))
+        waits = (scene.visible & ~has)[chosen]
+        # Drawing a cloud that waits costs as much as taking its picture does.
+        self._choose(plan, chosen[waits], size, WAITING * budget)
+        self._choose(plan, chosen[~waits], size, max(budget - len(plan.take), 0))
+        return plan
+
+    def _choose(self, plan: Plan, chosen: NDArray, size: NDArray, most: int) -> None:
+        """Take the pictures of the first of `chosen`; so many of UNIT, or fewer larger ones."""
+        room = float(most * UNIT * UNIT)
+        for index in chosen[:most].tolist():
+            side = _side(float(size[index]), plan.largest)
+            if plan.take and side * side > room:
                 continue
             room -= side * side
             plan.take.append((index, side))
-        return plan
 
     def _room(self, size: NDArray, largest: int) -> int:
         """The largest tile with which pictures of so many pixels all have room."""
