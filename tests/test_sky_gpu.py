@@ -19,7 +19,8 @@ from weather_ecs.components import Atmosphere, Fog, Observer, RainArea, RainCont
 from weather_ecs.errors import ContextError, InvalidValueError
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
-from weather_ecs.physics import sky_map
+from weather_ecs.gpu.sky_ring import thinned
+from weather_ecs.physics import bows, sky_map
 from weather_ecs.presets import WholeWeather
 
 SIZE = (480, 270)
@@ -203,6 +204,18 @@ def test_rainbow_is_at_42_degrees_and_the_secondary_at_51(stage: Stage) -> None:
     band = total[(angles > 44.5) & (angles < 48.5)]  # Alexander's
     assert band.max() < 0.15 * total.max()
     assert total[angles < 39.0].min() > band.max()
+
+
+def test_rings_have_as_many_angles_as_their_colours_ask_for() -> None:
+    angles = np.linspace(10.0, 30.0, 81)
+    colors = np.stack([np.maximum(angles - 25.0, 0.0), 0.0 * angles, angles], 1)
+    kept = thinned(angles, colors, 1e-9)
+    assert [angles[k] for k in kept] == [10.0, 25.0, 30.0]  # straight on both sides of a corner
+    for table in (bows.rainbow(), bows.halo()):
+        kept = thinned(np.arange(len(table)), table, 0.005)
+        line = [np.interp(np.arange(len(table)), kept, table[kept][:, c]) for c in range(3)]
+        assert np.abs(np.stack(line, 1) - table).max() <= 0.005
+        assert len(kept) < len(table) / 4
 
 
 def test_no_rainbow_without_rain_or_under_a_high_sun(stage: Stage) -> None:

@@ -19,6 +19,7 @@ AROUND = 96  # segments of a ring
 PARTS = 32  # of the half of it that is above
 HALO_LIGHT, BOW_LIGHT = 0.15, 0.21  # at full strength, beside a sun of 1 and as it is encoded
 FAINTEST = 0.5 / 255.0  # light that changes no pixel
+LEVEL = -0.02  # sine of the elevation below which the shader lets a ring end
 _FORMAT = "4f4 3f4"
 
 
@@ -27,34 +28,16 @@ class SkyRings:
 
     def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader) -> None:
         self._program = shaders.program(DRAW)
-        self._halo = self._make(ctx, HALO[::3], halo()[::3])
-        self._bow = self._make(ctx, BOW[::2], rainbow()[::2])
+        self._halo = _Ring(ctx, self._program, HALO, halo(), HALO_LIGHT)
+        self._bow = _Ring(ctx, self._program, BOW, rainbow(), BOW_LIGHT)
         self._brightest = float(rainbow().max())
-
-    def _make(
-        self, ctx: moderngl.Context, angles: NDArray, colors: NDArray
-    ) -> tuple[moderngl.VertexArray, moderngl.Buffer, moderngl.Buffer]:
-        turn = np.arange(AROUND + 1) * (2.0 / AROUND)
-        rows = np.zeros((len(angles), AROUND + 1, 7), np.float32)
-        radians = np.radians(angles)[:, None]
-        rows[..., 0], rows[..., 1], rows[..., 2] = np.cos(radians), np.sin(radians), turn
-        fade = np.minimum(np.arange(len(angles)), np.arange(len(angles))[::-1]) / 12.0
-        rows[..., 4:] = (colors * np.minimum(fade, 1.0)[:, None])[:, None]
-        i, j = np.meshgrid(np.arange(len(angles) - 1), np.arange(AROUND), indexing="ij")
-        first = i * (AROUND + 1) + j
-        below = first + AROUND + 1
-        corners = np.stack([first, first + 1, below, below, first + 1, below + 1], -1)
-        vertices, indices = ctx.buffer(rows.tobytes()), ctx.buffer(corners.astype("i4").tobytes())
-        content = [(vertices, _FORMAT, "in_ring", "in_color")]
-        array = ctx.vertex_array(self._program, content, indices)
-        return array, vertices, indices
 
     def draw_halo(self, data: AtmosphereData, sun: NDArray) -> None:
         """Round the sun; additive blending is the caller's. `sun`: its colour on a surface."""
         if data.halo <= 0.0 or data.sun_direction[1] < -0.35:
             return
         light = HALO_LIGHT * data.halo * sun
-        self._draw(self._halo[0], data.sun_direction, light, np.ones(PARTS + 1))
+        self._draw(self._halo, data.sun_direction, light, np.ones(PARTS + 1))
 
     def rain(self, view: ViewData, data: AtmosphereData) -> NDArray | None:
         """Strength of the bow from the right over its top to the left; None where there is none."""
@@ -80,11 +63,11 @@ class SkyRings:
     def draw_bow(self, data: AtmosphereData, sun: NDArray, strength: NDArray) -> None:
         """Opposite the sun, with the strengths of `rain`."""
         light = BOW_LIGHT * data.rainbow * sun
-        self._draw(self._bow[0], tuple(np.negative(data.sun_direction)), light, strength)
+        self._draw(self._bow, tuple(np.negative(data.sun_direction)), light, strength)
 
     def _draw(
         self,
-        array: moderngl.VertexArray,
+        ring: _Ring,
         axis: tuple[float, ...],
         light: NDArray,
         strength: NDArray,
@@ -96,12 +79,83 @@ class SkyRings:
         program["ring_up"] = tuple(up)
         program["ring_light"] = tuple(light)
         program["ring_strength"] = strength.astype(np.float32).tolist()
-        array.render(moderngl.TRIANGLES)
+        ring.draw(float(axis[1]), float(up[1]), strength)
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
-        for thing in (*self._halo, *self._bow):
+        self._halo.release()
+        self._bow.release()
+
+
+class _Ring:
+    """Triangles of a ring of colours, segment by segment, of which the seen ones are drawn."""
+
+    def __init__(
+        self,
+        ctx: moderngl.Context,
+        program: moderngl.Program,
+        angles: NDArray,
+        colors: NDArray,
+        light: float,
+    ) -> None:
+        ends = np.minimum(np.arange(len(angles)), np.arange(len(angles))[::-1])
+        colors = colors * np.minimum(ends / 24.0, 1.0)[:, None]
+        kept = thinned(angles, colors, FAINTEST / light)
+        radians = np.radians(angles[kept])[:, None]
+        turn = np.arange(AROUND + 1) * (2.0 / AROUND)
+        rows = np.zeros((len(kept), AROUND + 1, 7), np.float32)
+        rows[..., 0], rows[..., 1], rows[..., 2] = np.cos(radians), np.sin(radians), turn
+        rows[..., 4:] = colors[kept][:, None]
+        # Between the bows there is a band without light.
+        bright = colors[kept].max(axis=1) * light > FAINTEST
+        bands = np.flatnonzero(bright[:-1] | bright[1:])
+        j, i = np.meshgrid(np.arange(AROUND), bands, indexing="ij")
+        first = i * (AROUND + 1) + j
+        below = first + AROUND + 1
+        corners = np.stack([first, first + 1, below, below, first + 1, below + 1], -1)
+        self._along, self._across = np.cos(radians), np.sin(radians)
+        self._a_segment = 6 * len(bands)
+        self._vertices = ctx.buffer(rows.tobytes())
+        self._indices = ctx.buffer(corners.astype("i4").tobytes())
+        content = [(self._vertices, _FORMAT, "in_ring", "in_color")]
+        self._array = ctx.vertex_array(program, content, self._indices)
+
+    def draw(self, axis_up: float, across_up: float, strength: NDArray) -> None:
+        """The segments over the horizon that shine: a triangle costs as much as 100 pixels.
+
+        axis_up, across_up: of the axis, and of what is across it and up: how far they point up.
+        """
+        turn = np.arange(AROUND + 1) * (2.0 * math.pi / AROUND)
+        high = self._along * axis_up + self._across * (np.sin(turn) * across_up)
+        folded = np.minimum(turn, 2.0 * math.pi - turn) * (PARTS / math.pi)
+        shines = np.interp(folded, np.arange(PARTS + 1), strength) > FAINTEST
+        seen = (high > LEVEL).any(axis=0) & shines
+        drawn = np.concatenate([[False], seen[:-1] | seen[1:], [False]])
+        edges = np.flatnonzero(drawn[1:] != drawn[:-1])
+        for first, last in edges.reshape(-1, 2).tolist():
+            count = (last - first) * self._a_segment
+            self._array.render(moderngl.TRIANGLES, count, first=first * self._a_segment)
+
+    def release(self) -> None:
+        """Give everything back; twice does no harm."""
+        for thing in (self._array, self._vertices, self._indices):
             thing.release()
+
+
+def thinned(angles: NDArray, colors: NDArray, least: float) -> list[int]:
+    """Which of some angles are enough: straight lines between them miss no colour by `least`."""
+    kept = [0]
+    while kept[-1] < len(angles) - 1:
+        first = last = kept[-1]
+        for end in range(first + 1, len(angles)):
+            part = slice(first, end + 1)
+            share = (angles[part] - angles[first]) / (angles[end] - angles[first])
+            line = colors[first] + (colors[end] - colors[first]) * share[:, None]
+            if end > first + 1 and float(np.abs(line - colors[part]).max()) > least:
+                break
+            last = end
+        kept.append(last)
+    return kept
 
 
 def _across(axis: NDArray) -> tuple[NDArray, NDArray]:
