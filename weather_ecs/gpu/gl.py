@@ -175,7 +175,7 @@ class GL:
         self.handle, self._current, lookup = current_source()
         self._lookup = lookup
         self._scratch = (ctypes.c_int * 16)()
-        self._address = ctypes.addressof(self._scratch)
+        self._place = ctypes.byref(self._scratch)
         self.glGetIntegerv = bind(lookup(b"glGetIntegerv"), "glGetIntegerv")
         self.glGetString = bind(lookup(b"glGetString"), "glGetString")
         self.glGetError = bind(lookup(b"glGetError"), "glGetError")
@@ -189,6 +189,10 @@ class GL:
             setattr(self, name, bind(address, name) if address else None)
         if missing:
             raise ContextError(f"OpenGL {self.version_text()} lacks {', '.join(missing)}")
+        self._get_integer = self.reader("glGetIntegerv")
+        if self.version >= 330:
+            self._get_query = self.reader("glGetQueryiv")
+            self._get_attachment = self.reader("glGetFramebufferAttachmentParameteriv")
 
     def reader(self, name: str) -> Callable[..., None]:
         """The function `name`, which takes `ctypes.byref` where OpenGL has a pointer.
@@ -217,22 +221,22 @@ class GL:
         return self._current() == self.handle
 
     def get_int(self, name: int) -> int:
-        self.glGetIntegerv(name, self._address)
+        self._get_integer(name, self._place)
         return self._scratch[0]
 
     def get_ints(self, name: int, count: int) -> tuple[int, ...]:
         """`count` integers of one state value, at most 16."""
-        self.glGetIntegerv(name, self._address)
+        self._get_integer(name, self._place)
         return tuple(self._scratch[:count])
 
     def get_query(self, target: int, name: int) -> int:
         """A value of a query target, such as CURRENT_QUERY."""
-        self.glGetQueryiv(target, name, self._address)
+        self._get_query(target, name, self._place)
         return self._scratch[0]
 
     def get_attachment(self, target: int, attachment: int, name: int) -> int:
         """A value of one attachment of the framebuffer bound to `target`."""
-        self.glGetFramebufferAttachmentParameteriv(target, attachment, name, self._address)
+        self._get_attachment(target, attachment, name, self._place)
         return self._scratch[0]
 
     def get_string(self, name: int) -> str:

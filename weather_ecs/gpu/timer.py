@@ -24,9 +24,11 @@ class QueryRing:
         self._free = [tuple(names[i : i + size]) for i in range(0, len(names), size)]
         self._waiting: deque[tuple[int, ...]] = deque()
         self._value = ctypes.c_uint64()
-        self._address = ctypes.addressof(self._value)
+        self._place = ctypes.byref(self._value)
         self._ready = ctypes.c_int()
-        self._ready_address = ctypes.addressof(self._ready)
+        self._ready_place = ctypes.byref(self._ready)
+        self._ask = gl.reader("glGetQueryObjectiv")
+        self._read = gl.reader("glGetQueryObjectui64v")
 
     def take(self) -> tuple[int, ...] | None:
         """A free group, None where all are under way."""
@@ -41,7 +43,7 @@ class QueryRing:
         while self._waiting:
             group = self._waiting[0]
             # The last query of a group is the last to be done.
-            self._gl.glGetQueryObjectiv(group[-1], e.QUERY_RESULT_AVAILABLE, self._ready_address)
+            self._ask(group[-1], e.QUERY_RESULT_AVAILABLE, self._ready_place)
             if not self._ready.value:
                 break
             results.append(tuple(self._result(name) for name in group))
@@ -49,7 +51,7 @@ class QueryRing:
         return results
 
     def _result(self, name: int) -> int:
-        self._gl.glGetQueryObjectui64v(name, e.QUERY_RESULT, self._address)
+        self._read(name, e.QUERY_RESULT, self._place)
         return int(self._value.value)
 
     def release(self) -> None:

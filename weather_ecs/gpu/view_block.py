@@ -13,12 +13,13 @@ from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.flash import HAZE, VEIL, flash_of
 from weather_ecs.gpu.rain_blocks import MAX_LIGHTS
 
+ENCODED = 1.0 / 2.2
 LOG2_E = 1.0 / math.log(2.0)  # shaders raise 2 to a power, which costs them less than e
 
 
 def encode(linear: NDArray) -> NDArray:
     """Linear light to what an 8-bit target shows; as shaders/encode.glsl."""
-    return np.maximum(linear, 0.0) ** (1.0 / 2.2)
+    return np.maximum(linear, 0.0) ** ENCODED
 
 
 @lru_cache(maxsize=8)
@@ -75,15 +76,15 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     data["drop_color"][:3] = look.brightness * drop
     data["veil_color"][:3] = veil
     fog = view.frame.fog
-    color = np.array(fog.color)
+    color = fog.color
     if flash is not None:
         way = flash.place - np.array(view.position)
         data["flash_direction"][:3] = way / max(float(np.linalg.norm(way)), 1e-6)
         data["flash_color"][:3] = flash.here
         data["veil_color"][:3] = encode(veil_light(sky) + VEIL * flash.here)
-        color = color + HAZE * flash.here
-    data["fog_color"] = (*color.tolist(), fog.extinction * LOG2_E)
-    data["fog_shown"] = (*encode(color).tolist(), fog.depth)
+        color = (HAZE * flash.here + color).tolist()
+    data["fog_color"] = (*color, fog.extinction * LOG2_E)
+    data["fog_shown"] = (*[max(value, 0.0) ** ENCODED for value in color], fog.depth)
     _fill_lights(block, view)
 
 
