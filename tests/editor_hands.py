@@ -57,7 +57,7 @@ class Hands:
             self.window.dispatch_events()
             self.window.frame()
 
-    def until(self, question: Callable[[], Any], what: str, seconds: float = 60.0) -> None:
+    def until(self, question: Callable[[], Any], what: str, seconds: float = 200.0) -> None:
         """Let frames pass until something is so."""
 
         def asked() -> bool:
@@ -68,7 +68,7 @@ class Hands:
 
         self.wait(asked, what, seconds)
 
-    def wait(self, question: Callable[[], Any], what: str, seconds: float = 60.0) -> None:
+    def wait(self, question: Callable[[], Any], what: str, seconds: float = 200.0) -> None:
         """Ask until something is so; the question itself lets time pass."""
         end = time.monotonic() + seconds
         while not question():

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.window
 @pytest.mark.parametrize("case", ["story", "hands", "trouble"])
 def test_cloud_workspace(case: str, tmp_path: Path) -> None:
     with display((1280, 800)) as screen:
-        screen.python(ROOT / "tests" / "window_editor_cloud.py", case, tmp_path)
+        screen.python(ROOT / "tests" / "window_editor_cloud.py", case, tmp_path, seconds=550.0)
         if case == "story":
             # The demo opens what was made, and its pictures show it.
             screen.python(

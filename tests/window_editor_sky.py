@@ -185,7 +185,7 @@ def finish(window: EditorWindow) -> None:
 
 
 if __name__ == "__main__":
-    faulthandler.dump_traceback_later(150.0, exit=True)  # whoever hangs says where
+    faulthandler.dump_traceback_later(500.0, exit=True)  # whoever hangs says where
     opened_window, its_hands = opened()
     make_sky(opened_window, its_hands)
     opened_window.document.reset(CloudFile())

@@ -102,6 +102,13 @@ class OrbitCamera:
         way = ahead * self.forward() + aside * self.right() + np.array([0.0, above, 0.0])
         self.target = self.target + way * (SPEED * self.distance * dt)
 
+    def sees(self, low: Vector, high: Vector, aspect: float = 1.5) -> bool:
+        """Whether all of a box is in the picture."""
+        signs = np.array(np.meshgrid((0.0, 1.0), (0.0, 1.0), (0.0, 1.0))).reshape(3, -1)
+        corners = low[:, None] + (high - low)[:, None] * signs
+        clip = self.projection(aspect) @ self.view() @ np.vstack([corners, np.ones(8)])
+        return bool((np.abs(clip[:2]) <= clip[3]).all())
+
     def frame(self, low: Vector, high: Vector, aspect: float = 1.5) -> None:
         """Bring a box into the picture, as large as it fits, from the side it is seen from now."""
         center, half = 0.5 * (low + high), 0.5 * (high - low)

@@ -56,7 +56,7 @@ def _seeds(
     result.boxes(centers[rest], sizes[rest], (*OWN, 0.95), 1.4)
     if chosen is not None:
         pick = slice(chosen, chosen + 1)
-        result.faces(centers[pick], sizes[pick], (*CHOSEN, 0.10))
+        result.faces(centers[pick], sizes[pick], (*CHOSEN, 0.06))
         result.boxes(centers[pick], sizes[pick], (*CHOSEN, 1.0), 2.2)
 
 

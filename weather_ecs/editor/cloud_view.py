@@ -77,8 +77,13 @@ class CloudView:
         if document.generation != self._generation:
             self._generation = document.generation
             shared.frame_wanted = True
-        if shared.frame_wanted and posed is not None:
-            shared.frame_wanted = False
+        if posed is None:
+            return
+        wanted = shared.frame_wanted
+        if shared.sight_wanted and not wanted:
+            wanted = not self.camera.sees(*posed.bounds(), rect.aspect)
+        shared.frame_wanted = shared.sight_wanted = False
+        if wanted:
             self.camera.frame(*posed.bounds(), rect.aspect)
 
     def _take_picture(self, model: CloudModel | None, shared: Shared, rect: view.Rect) -> None:
@@ -144,7 +149,7 @@ def chosen_model(document: Document, shared: Shared) -> CloudModel | None:
 
 def _hint(rect: view.Rect) -> None:
     """What to do where there is no cloud yet."""
-    text = "An empty file.  New model, in the Cloud panel, begins a cloud."
+    text = "An empty file.  New..., to the left, begins a cloud."
     size = imgui.calc_text_size(text)
     x, y = rect.x + 0.5 * (rect.width - size.x), rect.y + 0.46 * rect.height
     lines = imgui.get_window_draw_list()

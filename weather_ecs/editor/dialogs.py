@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
+from weather_ecs.editor import theme
 from weather_ecs.editor.file_dialog import FileDialog
 from weather_ecs.editor.session import Session
 
@@ -128,6 +129,10 @@ def _answers(labels: list[str]) -> str | None:
     for number, label in enumerate(labels):
         if number:
             imgui.same_line()
+        if not number:  # what Enter means
+            imgui.push_style_color(imgui.Col_.button, theme.vec4(theme.ACCENT_LOW))
         if imgui.button(label, imgui.ImVec2(128.0, 0.0)):
             pressed = label
+        if not number:
+            imgui.pop_style_color()
     return pressed

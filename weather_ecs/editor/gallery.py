@@ -42,6 +42,8 @@ class Gallery:
         model = chosen_model(document, shared)
         imgui.align_text_to_frame_padding()
         imgui.text_disabled("Clouds of this model")
+        if model is None:
+            return
         imgui.same_line(0.0, 12.0)
         if imgui.small_button("<"):
             self._first = max(self._first - self._columns(), 0)
@@ -50,7 +52,7 @@ class Gallery:
             self._first += self._columns()
         tip_of_last("The next ones; a click on one shows it large")
         room = view.space_left()
-        if model is None or room.height < 24.0:
+        if room.height < 24.0:
             return
         if model is not self._model:
             self._model, self._waited = model, 0.0

@@ -19,6 +19,7 @@ _MOUSE = (
     ("Value: drag, or click and type", "change it; Esc while typing keeps it as it was"),
     ("A file dropped on the window", "opens it"),
 )
+_HIGH = 500.0  # pixels
 _CLOUD = (
     "A cloud model has seeds: boxes in which billboards are placed at random.",
     "Roots grow from a seed: level by level they add seeds like it, in their direction and within"
@@ -38,7 +39,7 @@ def draw_help(menus: Menus, opened: bool) -> bool:
     if not imgui.is_popup_open(name):
         imgui.open_popup(name)
     size = imgui.get_io().display_size
-    imgui.set_next_window_size(imgui.ImVec2(min(1120.0, 0.97 * size.x), min(640.0, 0.95 * size.y)))
+    imgui.set_next_window_size(imgui.ImVec2(min(1140.0, 0.97 * size.x), min(_HIGH, 0.95 * size.y)))
     middle = imgui.ImVec2(0.5 * size.x, 0.5 * size.y)
     imgui.set_next_window_pos(middle, imgui.Cond_.always, imgui.ImVec2(0.5, 0.5))
     flags = imgui.WindowFlags_.no_resize | imgui.WindowFlags_.no_move
@@ -49,7 +50,10 @@ def draw_help(menus: Menus, opened: bool) -> bool:
         (item.keys, item.label.rpartition("###")[2]) for item in all_items(menus) if item.keys
     ]
     half = (len(listed) + 1) // 2
-    if imgui.begin_table("page", 3, imgui.TableFlags_.sizing_stretch_prop):
+    imgui.push_style_var(imgui.StyleVar_.cell_padding, imgui.ImVec2(12.0, 2.0))
+    shown = imgui.begin_table("page", 3, imgui.TableFlags_.sizing_stretch_prop)
+    imgui.pop_style_var()
+    if shown:
         for name, weight in (("mouse", 1.3), ("keys", 1.0), ("more", 1.0)):
             imgui.table_setup_column(name, imgui.TableColumnFlags_.width_stretch, weight)
         imgui.table_next_column()

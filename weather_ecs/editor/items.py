@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 from imgui_bundle import imgui
 
@@ -42,6 +43,17 @@ def choose(name: str, items: Sequence[tuple[str, str]], index: int, rows: float)
     return index
 
 
+@contextmanager
+def well(name: str, count: int) -> Iterator[None]:
+    """A frame for a list of so many lines that are drawn in it; of more than eight it scrolls."""
+    high = min(max(count, 1), 8) * imgui.get_text_line_height_with_spacing() + 13.0
+    imgui.push_style_color(imgui.Col_.child_bg, theme.vec4(theme.WELL))
+    imgui.begin_child(name, imgui.ImVec2(0.0, high), imgui.ChildFlags_.borders)
+    imgui.pop_style_color()
+    yield
+    imgui.end_child()
+
+
 def lines_for(rows: float, least: float) -> float:
     """Lines of a list that leave room for so many rows of widgets below it."""
     room = imgui.get_content_region_avail().y - rows * imgui.get_frame_height_with_spacing() - 8.0
@@ -73,3 +85,9 @@ def buttons(of: str, *labels: tuple[str, bool, str]) -> str | None:
         if tip:
             tip_of_last(tip)
     return pressed
+
+
+def edit_buttons(of: str, any_there: bool) -> str | None:
+    """New, Copy and Delete; the one that was pressed."""
+    names = (("New", True, ""), ("Copy", any_there, ""), ("Delete", any_there, ""))
+    return buttons(of, *names)

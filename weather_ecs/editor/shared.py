@@ -75,6 +75,7 @@ class Shared:
     workspace: str = "cloud"  # or "sky"
     gizmo: str = "move"  # or "size", or "none"
     frame_wanted: bool = True  # the view is to bring the whole cloud into the picture
+    sight_wanted: bool = False  # the same, if it is not in it
     focus: str = "model"  # what copy and paste mean: "model", "seed", "root", or another panel's
     dt: float = 1.0 / 60.0  # s of the machine's clock since the last frame
     moves: bool = True  # something will look different in the next frame, without an event

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from weather_ecs.editor.shared import Shared
 
 QUALITY = "medium"  # where the document says nothing
-SETTLING = 1.5  # s after a change in which pictures of clouds still come in
+SETTLING = 1.5  # s after a change in which the light still comes in
+SETTLED = 64  # draws without a new picture of a cloud, after which all of them have faded in
 SEEKING = 0.06  # s of a frame, on the way to another moment
 GLIMPSE = 0.5  # s between pictures on that way
 SCALES = (1.0, 0.75, 0.5)  # of the resolution, while the picture moves
@@ -43,6 +44,7 @@ class Studio:
         self._generation = -1
         self._seen: tuple[object, ...] = ()
         self._unsettled = SETTLING
+        self._alike = 0  # draws since one that was not as the one before it
         self._scale = 0
         self._took = 0.0  # s of the last picture
         self._since = 0.0  # s since then
@@ -79,7 +81,8 @@ class Studio:
         moving = seen != self._seen
         self._unsettled = SETTLING if moving else self._unsettled - dt
         at_full = self.target.size == size
-        if not moving and self._unsettled < 0.0 and at_full:
+        self._alike = 0 if moving else self._alike
+        if self._unsettled < 0.0 and self._alike >= SETTLED and at_full:
             return False
         self._seen, self._since = seen, 0.0
         scale = SCALES[self._scale] if moving else 1.0
@@ -90,6 +93,8 @@ class Studio:
         self.gl.finish()
         self._took = time.perf_counter() - begin
         self.drawn += 1
+        # Few pictures of far clouds are taken in one draw, and a slow machine draws seldom.
+        self._alike = 0 if weather.stats.impostors_refreshed else self._alike + 1
         if moving and self._took > SLOW:
             self._scale = min(self._scale + 1, len(SCALES) - 1)
         elif moving and self._took < QUICK:

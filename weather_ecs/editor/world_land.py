@@ -16,7 +16,7 @@ RINGS, SECTORS = 72, 112
 NEAREST, FARTHEST = 2.0, 120_000.0  # m, radii of the first and the last ring
 PATCH = 160.0  # m, radius of the ground that rain falls on
 GREEN = 350.0  # m, of level ground round the origin
-MEADOW = (0.105, 0.155, 0.042)  # linear RGB
+MEADOW = (0.098, 0.133, 0.046)  # linear RGB
 
 VERTEX = np.dtype([("place", "f4", 3), ("normal", "f4", 3), ("color", "f4", 4)])
 

@@ -37,6 +37,7 @@ class CloudPanel:
 
     def draw(self, document: Document, shared: Shared) -> None:
         """The whole panel."""
+        imgui.separator_text("Models")
         if items.clicked_into():
             shared.focus = "model"
         self._choose(document, shared)

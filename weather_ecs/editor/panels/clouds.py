@@ -8,12 +8,12 @@ from imgui_bundle import imgui
 
 from weather_ecs import presets
 from weather_ecs.components import Cloud, CloudModel
+from weather_ecs.editor import items
 from weather_ecs.editor.bound import Bound, line, row, rows, take
 from weather_ecs.editor.content import with_item, with_new
 from weather_ecs.editor.content import without as without_item
 from weather_ecs.editor.document import Content, Document
 from weather_ecs.editor.fields import info
-from weather_ecs.editor.panels.lists import buttons
 from weather_ecs.editor.shared import Shared
 from weather_ecs.editor.studio import studio_of
 
@@ -31,14 +31,15 @@ class CloudsPanel:
     def draw(self, document: Document, shared: Shared) -> None:
         """The list, and the chosen cloud."""
         clouds, chosen = document.content.clouds, shared.selection.cloud
-        for k, cloud in enumerate(clouds):
-            if imgui.selectable(f"{name_of(cloud)} {cloud.number}##cloud{k}", k == chosen)[0]:
-                shared.selection.cloud, shared.focus = k, "cloud"
-            imgui.same_line(imgui.get_window_width() * 0.56)
-            imgui.text_disabled(f"{cloud.position[1]:,.0f} m".replace(",", " "))
+        with items.well("clouds", len(clouds)):
+            for k, cloud in enumerate(clouds):
+                if imgui.selectable(f"{name_of(cloud)} {cloud.number}##cloud{k}", k == chosen)[0]:
+                    shared.selection.cloud, shared.focus = k, "cloud"
+                imgui.same_line(imgui.get_window_width() * 0.56)
+                imgui.text_disabled(f"{cloud.position[1]:,.0f} m".replace(",", " "))
         if not clouds:
             imgui.text_wrapped("Clouds that stand where you put them; those of layers need none.")
-        pressed = buttons("cloud", bool(clouds))
+        pressed = items.edit_buttons("cloud", bool(clouds))
         if pressed == "New":
             camera = studio_of(shared).camera
             ahead = camera.forward()

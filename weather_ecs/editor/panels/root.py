@@ -86,6 +86,7 @@ def add_root(document: Document, shared: Shared, root: CloudRoot, label: str) ->
         lambda: with_seed(content, at, of, replace(seed, roots=(*seed.roots, root))),
     ):
         where.root = len(seed.roots)
+        shared.sight_wanted = True
 
 
 def delete_root(document: Document, shared: Shared) -> None:

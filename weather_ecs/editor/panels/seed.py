@@ -106,6 +106,7 @@ def add_seed(document: Document, shared: Shared, seed: CloudSeed, label: str) ->
 
     if document.try_apply(label, made):  # type: ignore[arg-type]
         where.seed, where.root = place, 0
+        shared.sight_wanted = True
 
 
 def delete_seed(document: Document, shared: Shared) -> None:

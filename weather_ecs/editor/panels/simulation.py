@@ -7,14 +7,13 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from weather_ecs.components import Climate, Sky, SkyLayer
-from weather_ecs.editor import theme
+from weather_ecs.editor import items, theme
 from weather_ecs.editor.bands import REGIONS, describe
 from weather_ecs.editor.bound import Bound, caption, row, rows
 from weather_ecs.editor.content import layer_climate, with_item, with_layer_climate, with_new
 from weather_ecs.editor.content import without as without_item
 from weather_ecs.editor.document import Content, Document
 from weather_ecs.editor.map_view import LAYERS
-from weather_ecs.editor.panels.lists import buttons
 from weather_ecs.editor.shared import Shared
 from weather_ecs.editor.studio import Studio, studio_of
 from weather_ecs.editor.view_bar import tip_of_last
@@ -41,21 +40,21 @@ class SimulationPanel:
     def _draw_list(self, document: Document, shared: Shared, studio: Studio) -> None:
         layers = document.content.layers
         chosen = shared.selection.layer
-        for k, layer in enumerate(layers):
-            imgui.push_style_color(imgui.Col_.text, theme.vec4(LAYERS[k % len(LAYERS)]))
-            label = f"{layer.base:,.0f} m".replace(",", " ")
-            if imgui.selectable(f"{label}##layer{k}", k == chosen)[0]:
-                shared.selection.layer, shared.selection.sky = k, 0
-                shared.focus = "layer"
-            imgui.pop_style_color()
-            imgui.same_line(imgui.get_window_width() * 0.34)
-            count = len(layer.skies)
-            imgui.text_disabled(
-                f"{describe(layer.base, studio.region)}, {count} {'sky' if count == 1 else 'skies'}"
-            )
-        if not layers:
-            imgui.text_disabled("No layers: no clouds that drift.")
-        pressed = buttons("layer", bool(layers))
+        with items.well("layers", len(layers)):
+            for k, layer in enumerate(layers):
+                imgui.push_style_color(imgui.Col_.text, theme.vec4(LAYERS[k % len(LAYERS)]))
+                label = f"{layer.base:,.0f} m".replace(",", " ")
+                if imgui.selectable(f"{label}##layer{k}", k == chosen)[0]:
+                    shared.selection.layer, shared.selection.sky = k, 0
+                    shared.focus = "layer"
+                imgui.pop_style_color()
+                imgui.same_line(imgui.get_window_width() * 0.34)
+                count = len(layer.skies)
+                skies = f"{count} {'sky' if count == 1 else 'skies'}"
+                imgui.text_disabled(f"{describe(layer.base, studio.region)}, {skies}")
+            if not layers:
+                imgui.text_disabled("No layers: no clouds that drift.")
+        pressed = items.edit_buttons("layer", bool(layers))
         if pressed == "New":
             layer = SkyLayer(1000.0, skies=(Sky(0.0),))
             if document.apply("New layer", with_new(document.content, "layers", layer)):
@@ -104,7 +103,8 @@ def _draw_climate(document: Document) -> None:
         return
     bound = Bound(document, climate, put, ("climate",), "Climate")
     rows(bound, "initial", "final", "duration", "elapsed", "speed", "running")
-    if imgui.small_button("Remove climate"):
+    imgui.same_line(0.0, 10.0)
+    if imgui.button("Remove climate"):
         document.apply("Remove climate", put(None))
 
 

@@ -8,11 +8,10 @@ from imgui_bundle import imgui
 
 from weather_ecs import presets
 from weather_ecs.components import CloudModel, Sky, SkyLayer
-from weather_ecs.editor import theme
+from weather_ecs.editor import items, theme
 from weather_ecs.editor.bound import Bound, row, take
 from weather_ecs.editor.content import swapped, with_item
 from weather_ecs.editor.document import Content, Document
-from weather_ecs.editor.panels.lists import buttons
 from weather_ecs.editor.shared import Shared
 from weather_ecs.editor.studio import studio_of
 from weather_ecs.editor.view_bar import tip_of_last
@@ -42,18 +41,21 @@ class SkyPanel:
         chosen = shared.selection.sky
         state = studio_of(shared).simulation.weather.stats.state
         parts = shares([sky.state for sky in layer.skies], state).tolist() if layer.skies else []
-        for k, sky in sorted(enumerate(layer.skies), key=lambda each: each[1].state):
-            if imgui.selectable(f"{sky.state:.2f} {name_of(sky.state)}##sky{k}", k == chosen)[0]:
-                shared.selection.sky = chosen = k
-                shared.focus = "sky"
-            imgui.same_line(imgui.get_window_width() * 0.44)
-            imgui.text_disabled(f"{sky.count} clouds")
-            if parts[k] > 0.0:
-                text = f"{100.0 * parts[k]:.0f} %"
-                imgui.same_line(imgui.get_window_width() - imgui.calc_text_size(text).x - 22.0)
-                imgui.text_colored(theme.vec4(theme.GOOD), text)
-                tip_of_last("Its share of the clouds that come in now")
-        pressed = buttons("sky", bool(layer.skies))
+        with items.well("skies", len(layer.skies)):
+            for k, sky in sorted(enumerate(layer.skies), key=lambda each: each[1].state):
+                if imgui.selectable(f"{sky.state:.2f} {name_of(sky.state)}##sky{k}", k == chosen)[
+                    0
+                ]:
+                    shared.selection.sky = chosen = k
+                    shared.focus = "sky"
+                imgui.same_line(imgui.get_window_width() * 0.44)
+                imgui.text_disabled(f"{sky.count} clouds")
+                if parts[k] > 0.0:
+                    text = f"{100.0 * parts[k]:.0f} %"
+                    imgui.same_line(imgui.get_window_width() - imgui.calc_text_size(text).x - 14.0)
+                    imgui.text_colored(theme.vec4(theme.GOOD), text)
+                    tip_of_last("Its share of the clouds that come in now")
+        pressed = items.edit_buttons("sky", bool(layer.skies))
         if pressed in ("New", "Copy"):
             free = free_state([sky.state for sky in layer.skies])
             source = layer.skies[chosen] if pressed == "Copy" else Sky(0.0)

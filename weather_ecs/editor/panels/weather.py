@@ -11,14 +11,13 @@ from imgui_bundle import imgui
 
 from weather_ecs import presets
 from weather_ecs.components import Air, Atmosphere, Fog, Lightning, RainArea
-from weather_ecs.editor import theme, whole
+from weather_ecs.editor import items, theme, whole
 from weather_ecs.editor.bound import Bound, caption, line, row, rows, take, tidy
 from weather_ecs.editor.content import with_item, with_new
 from weather_ecs.editor.content import without as without_item
 from weather_ecs.editor.document import Content, Document
 from weather_ecs.editor.fields import info
 from weather_ecs.editor.map_frame import dragged
-from weather_ecs.editor.panels.lists import buttons
 from weather_ecs.editor.rows import section as heading
 from weather_ecs.editor.shared import Shared
 from weather_ecs.editor.studio import QUALITY, studio_of
@@ -137,26 +136,28 @@ def single(
         return replace(document.content, **{field: part})
 
     if part is None:
+        imgui.align_text_to_frame_padding()
         imgui.text_disabled("As the package has it.")
         imgui.same_line()
-        if imgui.small_button(f"Set##{field}"):
+        if imgui.button(f"Set##{field}"):
             document.apply(f"Set {title.lower()}", put(kind()))
         return
     rows(Bound(document, part, put, (field,), title), *names)
-    if imgui.small_button(f"Remove##{field}"):
+    if imgui.button(f"Remove##{field}"):
         document.apply(f"Remove {title.lower()}", put(None))
 
 
 def _draw_areas(document: Document, shared: Shared) -> None:
     areas, chosen = document.content.rain_areas, shared.selection.area
-    for k, area in enumerate(areas):
-        a, b = area.radii
-        text = f"{area.rain_rate:g} mm/h"
-        if imgui.selectable(f"{text}##area{k}", k == chosen)[0]:
-            shared.selection.area, shared.focus = k, "area"
-        imgui.same_line(imgui.get_window_width() * 0.36)
-        imgui.text_disabled(f"{a:,.0f} x {b:,.0f} m".replace(",", " "))
-    pressed = buttons("area", bool(areas))
+    with items.well("areas", len(areas)):
+        for k, area in enumerate(areas):
+            a, b = area.radii
+            text = f"{area.rain_rate:g} mm/h"
+            if imgui.selectable(f"{text}##area{k}", k == chosen)[0]:
+                shared.selection.area, shared.focus = k, "area"
+            imgui.same_line(imgui.get_window_width() * 0.36)
+            imgui.text_disabled(f"{a:,.0f} x {b:,.0f} m".replace(",", " "))
+    pressed = items.edit_buttons("area", bool(areas))
     if pressed == "New":
         camera = studio_of(shared).camera
         area = RainArea((round(camera.x), round(camera.z - 150.0)), (120.0, 80.0), 10.0)
@@ -213,9 +214,10 @@ def _draw_sky(document: Document) -> None:
 
     if sky is None:
         text = "The light of a sun." if document.content.sun else "A day in June, at noon."
+        imgui.align_text_to_frame_padding()
         imgui.text_disabled(text)
         imgui.same_line()
-        if imgui.small_button("Set##sky"):
+        if imgui.button("Set##sky"):
             document.apply("Set sun and time", put(Atmosphere()))
         return
     bound = Bound(document, sky, put, ("atmosphere",), "Sky")
@@ -235,7 +237,7 @@ def _draw_sky(document: Document) -> None:
         take(bound, "time", "Day", changed, first + now * DAY + hour)
     rows(bound, "latitude", "longitude", "speed", "turbidity", "overcast", "exposure")
     rows(bound, "stars", "rainbow", "halo")
-    if imgui.small_button("Remove##sky"):
+    if imgui.button("Remove##sky"):
         document.apply("Remove sun and time", put(None))
 
 

@@ -10,13 +10,13 @@ from imgui_bundle import imgui, implot
 from numpy.typing import NDArray
 
 from weather_ecs.components import Wind
+from weather_ecs.editor import items, theme
 from weather_ecs.editor.bound import Bound, line, row, rows, take, tidy
 from weather_ecs.editor.content import with_item, with_new
 from weather_ecs.editor.content import without as without_item
 from weather_ecs.editor.document import Content, Document
 from weather_ecs.editor.fields import info
 from weather_ecs.editor.inside import gust_speeds, law_speeds
-from weather_ecs.editor.panels.lists import buttons
 from weather_ecs.editor.shared import Shared
 from weather_ecs.editor.studio import studio_of
 
@@ -37,12 +37,13 @@ class WindPanel:
     def draw(self, document: Document, shared: Shared) -> None:
         """The list, the chosen wind, its plot."""
         winds, chosen = document.content.winds, shared.selection.wind
-        for k, wind in enumerate(winds):
-            if imgui.selectable(f"{wind.speed:g} m/s##wind{k}", k == chosen)[0]:
-                shared.selection.wind, shared.focus = k, "wind"
-            imgui.same_line(imgui.get_window_width() * 0.34)
-            imgui.text_disabled(f"{wind.law}, from {bearing_of(wind.direction):.0f}°")
-        pressed = buttons("wind", bool(winds))
+        with items.well("winds", len(winds)):
+            for k, wind in enumerate(winds):
+                if imgui.selectable(f"{wind.speed:g} m/s##wind{k}", k == chosen)[0]:
+                    shared.selection.wind, shared.focus = k, "wind"
+                imgui.same_line(imgui.get_window_width() * 0.34)
+                imgui.text_disabled(f"{wind.law}, from {bearing_of(wind.direction):.0f}°")
+        pressed = items.edit_buttons("wind", bool(winds))
         if pressed == "New":
             content = with_new(document.content, "winds", Wind(speed=5.0))
             if document.apply("New wind", content):
@@ -78,11 +79,16 @@ class WindPanel:
         implot.setup_axes_limits(float(times[0]), float(times[-1]), 0.0, top, always)
         below = implot.LegendFlags_.outside | implot.LegendFlags_.horizontal
         implot.setup_legend(implot.Location_.north, below)
-        implot.plot_line("m/s with gusts", times, gusts)
-        implot.plot_line("by the law", times, law)
+        implot.plot_line("m/s with gusts", times, gusts, _look(theme.ACCENT, 1.6))
+        implot.plot_line("by the law", times, law, _look(theme.WARN, 1.6))
         if times[0] <= now <= times[-1]:
-            implot.plot_inf_lines("now", np.array([now]))
+            implot.plot_inf_lines("now", np.array([now]), _look(theme.GOOD, 1.2))
         implot.end_plot()
+
+
+def _look(color: theme.Color, width: float) -> implot.Spec:
+    """How a line of the plot is drawn."""
+    return implot.Spec(line_color=theme.vec4(color), line_weight=width)
 
 
 def curves(wind: Wind) -> tuple[NDArray, NDArray, NDArray]:

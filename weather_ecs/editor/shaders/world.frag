@@ -16,15 +16,34 @@ in vec4 v_color;
 
 out vec4 out_color;
 
+const vec3 DRY = vec3(0.155, 0.140, 0.058), LUSH = vec3(0.062, 0.105, 0.032);
+const vec3 SAND = vec3(0.235, 0.195, 0.140);
+
+// How much of a place is the lane from the green to the church: two ruts, grass between them.
+float lane(vec2 p, vec3 grain)
+{
+    float across = abs(p.x + 4.0 - 5.0 * sin(p.y / 38.0)) + 0.7 * grain.g;
+    float rut = smoothstep(1.15, 0.75, across) * (0.45 + 0.55 * smoothstep(0.15, 0.45, across));
+    return rut * smoothstep(-121.0, -113.0, p.y) * smoothstep(150.0, 90.0, p.y);
+}
+
 // The level ground round the origin is one green, fields lie beyond; grain near the eye.
 vec3 land(vec3 meadow, vec2 p, float away)
 {
     vec3 grain = texture(grain_map, p / 37.0).rgb - 0.5;
     vec3 fields = texture(land_map, p / LAND + 0.5).rgb;
     float tilled = smoothstep(340.0, 400.0, length(p) + 80.0 * grain.b);
-    vec3 soil = mix(meadow, fields * fields, tilled);
+    // Tufts and bare spots of some metres, swards of some tens; blades near the eye.
+    vec3 broad = texture(grain_map, p / 260.0).rgb - 0.5;
+    float sward = clamp(0.5 + 0.9 * broad.b + 0.7 * broad.g + 0.5 * grain.b, 0.0, 1.0);
+    vec3 green = mix(mix(LUSH, meadow, smoothstep(0.1, 0.5, sward)), DRY,
+                     0.6 * smoothstep(0.62, 0.95, sward));
+    green = mix(green, SAND * (1.0 + 0.4 * grain.r), 0.85 * lane(p, grain));
+    vec3 soil = mix(green, fields * fields, tilled);
     float fine = texture(grain_map, p / 7.3).r - 0.5;
-    return soil * (1.0 + 0.35 * grain.g + 0.5 * fine * exp(-away / 30.0));
+    float blades = texture(grain_map, p / 1.9).r - 0.5;
+    return soil * (1.0 + 0.35 * grain.g + 0.5 * fine * exp(-away / 30.0)
+                   + 0.7 * blades * exp(-away / 9.0));
 }
 
 void main()
