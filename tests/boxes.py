@@ -37,11 +37,15 @@ def box(key: int, transform: NDArray[np.float64], dynamic: bool = False) -> Occl
 
 
 def highest(
-    at: NDArray, slope: tuple[float, float], transforms: list[NDArray[np.float64]]
+    at: NDArray,
+    slope: tuple[float, float],
+    transforms: list[NDArray[np.float64]],
+    raised: float = 0.0,
 ) -> NDArray[np.float64]:
     """Height at which lines of fall first meet a box, (n,); -inf where they meet none.
 
-    at: (n, 2), where each line passes height 0; slope: horizontal metres per metre of fall.
+    at: (n, 2), where each line passes height 0; slope: horizontal metres per metre of fall;
+    raised: m by which faces of more than 60 degrees count as higher than they are.
     """
     found = np.full(len(at), -np.inf)
     start = np.column_stack([at[:, 0], np.zeros(len(at)), at[:, 1], np.ones(len(at))])
@@ -50,12 +54,17 @@ def highest(
         inverse = np.linalg.inv(transform)
         o, d = (start @ inverse.T)[:, :3], (inverse @ way)[:3]
         low, high = np.full(len(at), -np.inf), np.full(len(at), np.inf)
+        more = np.zeros((2, len(at)))  # of the faces at `low` and at `high`
         for axis in range(3):
             if abs(d[axis]) < 1e-12:
                 outside = np.abs(o[:, axis]) > 1.0
                 low = np.where(outside, np.inf, low)
                 continue
             ends = np.sort(np.stack([(-1.0 - o[:, axis]), (1.0 - o[:, axis])]) / d[axis], axis=0)
+            normal = inverse[axis, :3] / np.linalg.norm(inverse[axis, :3])
+            own = raised if abs(normal[1]) < 0.5 else 0.0
+            more = np.where([ends[0] > low, ends[1] < high], own, more)
             low, high = np.maximum(low, ends[0]), np.minimum(high, ends[1])
-        found = np.where(low < high, np.maximum(found, high), found)
+        top = np.maximum(low + more[0], high + more[1])
+        found = np.where(low < high, np.maximum(found, top), found)
     return found

@@ -141,7 +141,7 @@ def test_boxes_shelter_what_lies_below_them_along_the_fall(slope):
     index.update((*still, *moving), slope, 0.0)
     points = np.random.default_rng(3).uniform((-45, -3, -45), (45, 15, 45), (4000, 3))
     at = points[:, [0, 2]] + points[:, 1:2] * np.array(slope)
-    top = highest(at, slope, [o.transform for o in (*still, *moving)])
+    top = highest(at, slope, [o.transform for o in (*still, *moving)], MARGIN)
     clear = np.abs(top - points[:, 1] - MARGIN) > 1e-3
     expected = top > points[:, 1] + MARGIN
     np.testing.assert_array_equal(known(index, points)[clear], expected[clear])
@@ -342,6 +342,30 @@ def test_a_sample_knows_what_has_moved_a_quarter_of_a_second_ago():
             esper.process(0.05)
         assert weather.sample((k + 2.5, 0, 0)).sheltered
         assert not weather.sample((k - 3.5, 0, 0)).sheltered
+
+
+@pytest.mark.parametrize("many", [False, True])
+def test_who_stands_behind_a_wall_is_dry_in_any_wind(many):
+    # Rain of more than 45 degrees goes over the wall, or meets it less than MARGIN above the point.
+    weather = Weather()
+    esper.create_entity(RainArea((0, 0), (60, 40), 25.0))
+    esper.create_entity(Wind((1, 0), 12.0))
+    parts = [placed((0.0, 1.4, 0.0), (0.08, 1.4, 8.0))]
+    parts += [placed((30.0 + k, 0.5, 0.0), (0.1, 0.5, 0.1)) for k in range(4 if many else 0)]
+    corners = np.concatenate([CORNERS @ m[:3, :3].T + m[:3, 3] for m in parts])
+    faces = np.concatenate([TRIANGLES + len(CORNERS) * k for k in range(len(parts))])
+    esper.create_entity(Occluder(corners, faces))
+    esper.process(0.1)
+    for away in (0.16, 0.3, 0.6):
+        for y in (0.0, 0.8, 1.6):
+            assert weather.sample((away, y, 0.5)).sheltered, (away, y)
+            assert not weather.sample((-away, y, 0.5)).sheltered, (away, y)
+    assert not weather.sample((0.3, 2.75, 0.5)).sheltered
+    assert not weather.sample((6.5, 0.8, 0.5)).sheltered
+    # Ground counts only from MARGIN on, as it may be coarser than what is drawn.
+    esper.create_entity(Occluder(CORNERS, TRIANGLES, placed((0, -0.9, 20), (20, 1.0, 10))))
+    esper.process(0.1)
+    assert not weather.sample((0.0, 0.0, 20.0)).sheltered
 
 
 def test_rain_passes_what_lies_on_layers_it_ignores():

@@ -17,6 +17,7 @@ FEW = 12  # triangles that are quicker tested one by one than drawn into a raste
 LONGEST = 24.0  # m, of a piece that is drawn into a raster
 CELLS = 96  # of a raster along its longer side
 FINEST = 0.05  # m
+STEEP = 0.5  # rise of the normal below which a triangle is a wall and no ground
 THINNEST = 1e-4  # share of a triangle's area that it must show to the rain
 _PAIRS = 400_000  # of triangle and cell that are looked at together
 
@@ -50,19 +51,26 @@ def pieces(vertices: NDArray, indices: NDArray, scale: float = 1.0) -> list[Piec
 
 
 class Facets:
-    """A piece under one turn and one fall, ready to be asked; its place is the asker's affair."""
+    """A piece under one turn and one fall, ready to be asked; its place is the asker's affair.
+
+    Walls count as `raised` m higher than they are: who asks above so much of a margin, because
+    ground may be coarse, is told of walls from the point on.
+    """
 
     __slots__ = ("_cell", "_columns", "_inside", "_low", "_planes", "_rows", "_top")
 
-    def __init__(self, piece: Piece, turn: NDArray, slope: tuple[float, float]) -> None:
+    def __init__(
+        self, piece: Piece, turn: NDArray, slope: tuple[float, float], raised: float = 0.0
+    ) -> None:
         corners = piece.corners @ turn.T
         heights = corners[:, :, 1]
         places = corners[:, :, [0, 2]] + heights[:, :, None] * np.asarray(slope)
         one, two = places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]
         shown = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
-        size = np.linalg.norm(
-            np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
-        )
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        size = np.linalg.norm(normals, axis=1)
+        steep = np.abs(normals[:, 1]) < STEEP * size
+        heights = heights + np.where(steep, raised, 0.0)[:, None]
         seen = np.abs(shown) > THINNEST * size
         seen &= size > 0.0
         places, heights = places[seen], heights[seen]

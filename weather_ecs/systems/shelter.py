@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from weather_ecs.frame import OccluderData
 from weather_ecs.physics.heightfield import Facets, Piece, pieces
 
-MARGIN = 0.25  # m above a point from which on something counts as cover
+MARGIN = 0.25  # m above a point from which on something counts as cover; walls do from it on
 # Work is counted and not timed, so that a slow machine gives the same answers.
 _CHEAP = 500  # pieces, about 1 ms; an update of more is made at most every _SOON seconds
 _SOON = 0.1  # s of the weather's clock
@@ -121,7 +121,7 @@ class _FacetStore:
             return known, True
         if before is not None and self.spent > _BUDGET:
             return before, False
-        known = self._known[key] = Facets(piece, turn, slope)
+        known = self._known[key] = Facets(piece, turn, slope, MARGIN)
         if len(self._known) > _KEPT:
             self._known.pop(next(iter(self._known)))
         self.spent += len(piece.corners)
@@ -193,7 +193,7 @@ class _Layer:
         places = middle[:, [0, 2]] + middle[:, 1:2] * slope
         wide = half[:, [0, 2]] + half[:, 1:2] * np.abs(slope)
         low, high = places - wide, places + wide
-        top = middle[:, 1] + half[:, 1]
+        top = middle[:, 1] + half[:, 1] + MARGIN  # as walls are asked for
         self._boxes = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1], top], axis=1).tolist()
         self._file(low, high)
 
