@@ -280,6 +280,21 @@ def test_no_rain_comes_in_by_the_windows(place: Place) -> None:
         assert crosses(triangles, middle + 0.2 * out, -0.5 * out) == (opening != cabin.DOOR)
 
 
+def test_no_rain_comes_in_by_the_roof(place: Place) -> None:
+    """Nor by its ridge, its eaves over the walls, or between it and the porch's."""
+    shapes = {shape.name: shape for shape in place.occluders()}
+    shape = shapes["cabin_roof"]
+    triangles = shape.vertices[shape.indices].astype(float)
+    rng = np.random.default_rng(3)
+    half = 0.5 * np.array([cabin.WIDTH, 0.0, cabin.DEPTH]) - (0.1, 0.0, 0.1)
+    points = rng.uniform(-half, half, (250, 3))
+    points[:100, 2] = rng.uniform(-0.06, 0.06, 100)  # under the ridge
+    points[100:150, 2] = rng.uniform(half[2] - 0.1, half[2] + 0.5, 50)  # where the porch begins
+    up = np.array([0.0, 20.0, 0.0])
+    for point in points:
+        assert crosses(triangles, place.cabin_origin + point + (0.0, 0.4, 0.0), up), point
+
+
 def test_sky_light_under_a_roof_and_in_the_open() -> None:
     roof = Builder()
     roof.box((0.0, 2.0, 0.0), (8.0, 0.2, 8.0), (0.5, 0.5, 0.5))
