@@ -132,10 +132,17 @@ def test_none_shows_through_a_wall(capture: SplashCapture):
     low, high = (f(crowns(capture.quads(records, view, LOOK)), axis=1) for f in (np.min, np.max))
     among = [((low[:, :2] <= foot) & (foot <= high[:, :2])).all(axis=1).any() for foot in feet]
     assert among == [True, True, False, True]
+    # Nor do droplets fly into it: those that are left are beside it.
+    records = impacts(40, time=99.8, weight=MANY, position=(0.1, -3.0, 0.0))
+    left = capture.quads(records, view, LOOK).droplets
+    wall = shown(view, np.array([(0.0, -3.0 + 0.2, z) for z in (-0.2, 0.2)]))[:, 0].min()
+    assert len(left) > 20 and (left[:, 0] > wall - 0.01).all()
+    capture.ground(edge=-9.0, low=-3.0)
+    every = capture.quads(records, view, LOOK).droplets
+    assert len(every) > len(left) + 5 and (every[:, 0] < wall - 0.01).any()
     # Hits on the far face of a wall, seen from within.
     capture.ground()
-    records["position"][:] = 0.0
-    records["normal"] = (-0.97, 0.24, 0.0)
+    records = impacts(4, time=100.0 - AGE, weight=FEW, normal=(-0.97, 0.24, 0.0))
     assert len(crowns(capture.quads(records, view_at((-1.0, 0.4, 3.0), 0.0), LOOK))) == 4
     assert len(crowns(capture.quads(records, view_at((1.0, 0.4, 3.0), 0.0), LOOK))) == 0
 
@@ -159,9 +166,9 @@ def test_splashes_find_the_map_whatever_other_passes_have_bound(ctx: moderngl.Co
         with stage(ctx, (320, 180), quality="low") as it:
             scene()
             play(it, 20)
-            renderer = it.weather._renderer
-            assert renderer is not None
-            draw, other = renderer._draw_splashes, ctx.texture((4, 4), 4, bytes(64))
+            assert it.weather._renderer is not None
+            layers = it.weather._renderer._layers
+            draw, other = layers._draw_splashes, ctx.texture((4, 4), 4, bytes(64))
 
             def after_others(
                 *given: Any, draw: Any = draw, other: Any = other, busy: bool = busy
@@ -170,7 +177,7 @@ def test_splashes_find_the_map_whatever_other_passes_have_bound(ctx: moderngl.Co
                     other.use(unit)
                 draw(*given)
 
-            renderer._draw_splashes = after_others  # type: ignore[method-assign]
+            layers._draw_splashes = after_others  # type: ignore[method-assign]
             pictures.append(play(it, 3).astype(int))
             assert it.weather.stats.splashes > 0
             other.release()

@@ -18,6 +18,7 @@ in vec3 vs_throw[];
 in float vs_more[];
 
 const float EDGE = 0.08;  // m, of a drop in height that a droplet may fall over
+const float WITHIN = 0.3;  // m, of a droplet below what rain meets first at its place
 const float GONE = 0.12;  // m, that a surface may have sunk under a splash; at twice that it is gone
 // m: beside what is so much higher it cannot be told whether a hit is before a wall or within it.
 const float BESIDE = 0.9;
@@ -125,6 +126,8 @@ void droplets(float seed, vec3 n, vec4 color)
         // Over the edge of what was hit it falls on, as deep as it is there; else it has landed.
         float deep = -below_surface(shelter_place(landed));
         if (age >= back && (deep < EDGE || -dot(n, way) > deep)) continue;
+        // Nor does it fly on through a wall, or in under a roof.
+        if (below_surface(shelter_place(vs_at[0] + way)) > WITHIN) continue;
         droplet(vs_at[0] + way, v + pull * age, splash_grain.x, color);
     }
 }
