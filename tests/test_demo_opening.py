@@ -27,7 +27,7 @@ def test_a_game_opens_on_sun_and_a_shower_ahead(ctx: moderngl.Context) -> None:
     assert abs(ahead - game.pose.yaw) < 0.2
     assert game.weather.sample((x, 2.0, z)).rain_rate > 5.0
     assert game.light.sun_direction[2] > 0.3 < game.light.sun_direction[1]  # behind, high enough
-    sky = game.weather._renderer._sky  # type: ignore[union-attr]
+    sky = game.weather._renderer._layers._sky  # type: ignore[union-attr]
     assert sky is not None and sky.has_bow
     # The bow's top stands clear over the hills, and its left foot on the path that one looks along.
     x, y, z = game.light.sun_direction

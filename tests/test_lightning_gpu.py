@@ -205,7 +205,7 @@ def test_nothing_is_drawn_before_and_after(screen: Screen) -> None:
     assert np.abs(screen.draw() - dark).max() > 0.5
     esper.process(3.0)
     np.testing.assert_array_equal(screen.draw(), dark)
-    assert not screen.weather._renderer._bolts.draws(
+    assert not screen.weather._renderer._layers._bolts.draws(
         screen.weather._view.view(screen.weather._frame(), _camera(), 0, screen.weather._settings)
     )
 

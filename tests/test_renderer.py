@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from importlib import resources
+from types import ModuleType
 from typing import Any
 
 import esper
@@ -31,6 +32,7 @@ from weather_ecs.components import (
     Wind,
 )
 from weather_ecs.errors import ContextError, InvalidValueError, ShaderError
+from weather_ecs.gpu import layers as layers_module
 from weather_ecs.gpu import renderer as renderer_module
 from weather_ecs.gpu.context import Capabilities, probe
 from weather_ecs.gpu.gl import GL
@@ -311,15 +313,23 @@ def test_compute_where_there_is_none(
         assert made.rain(made.play(3)).mean() > 1.0
 
 
-@pytest.mark.parametrize("part", ["RainPass", "VeilPass", "DepthCopy", "PrimitiveCounter"])
+@pytest.mark.parametrize(
+    ("module", "part"),
+    [
+        (renderer_module, "RainPass"),
+        (layers_module, "VeilPass"),
+        (layers_module, "DepthCopy"),
+        (layers_module, "PrimitiveCounter"),
+    ],
+)
 def test_a_renderer_that_cannot_be_made_leaves_nothing(
-    ctx: moderngl.Context, gl: GL, monkeypatch: pytest.MonkeyPatch, part: str
+    ctx: moderngl.Context, gl: GL, monkeypatch: pytest.MonkeyPatch, module: ModuleType, part: str
 ) -> None:
     def broken(*args: Any, **kwargs: Any) -> None:
         raise ShaderError("the driver does not like it")
 
     before = living(gl)
-    monkeypatch.setattr(renderer_module, part, broken)
+    monkeypatch.setattr(module, part, broken)
     with pytest.raises(ShaderError):
         Weather(context=ctx)
     assert living(gl) == before

@@ -149,7 +149,8 @@ def test_the_sheet_shows_sky_depth_and_rings(made: Stage) -> None:
     esper.create_entity(rain(100.0))
     made.play(40, **ONTO)
     renderer: Any = renderer_of(made)
-    renderer._draw_drops = renderer._draw_veils = lambda *_, **__: None
+    layers = renderer._layers
+    layers._draw_drops = layers._draw_veils = lambda *_, **__: None
     rings = made.play(1, **ONTO).astype(float)
     # Rings: the still water is smooth from pixel to pixel, the rippled is not.
     rough = [abs(np.diff(p.astype(float).mean(axis=2), axis=1))[:40].mean() for p in (still, rings)]
@@ -166,7 +167,8 @@ def test_far_water_is_calm_under_a_roof(made: Stage) -> None:
     esper.create_entity(Occluder(CORNERS, TRIANGLES, roof))
     made.play(30, **ONTO)
     renderer: Any = renderer_of(made)
-    renderer._draw_drops = renderer._draw_veils = lambda *_, **__: None
+    layers = renderer._layers
+    layers._draw_drops = layers._draw_veils = lambda *_, **__: None
     picture = made.play(1, position=(0.0, 1.7, 0.0), heading=0.0, pitch=-0.15).astype(float)
     rough = abs(np.diff(picture.mean(axis=2), axis=1))[40:47]  # 8 to 14 m off
     # North, where z is below 0, is on the left.

@@ -223,14 +223,14 @@ def test_no_rainbow_without_rain_or_under_a_high_sun(stage: Stage) -> None:
     esper.create_entity(RainArea((0, -900), (800, 700), rain_rate=10.0))
     esper.process(0.0)
     stage.picture(math.pi / 2, 0.2)
-    sky = stage.weather._renderer._sky  # type: ignore[union-attr]
+    sky = stage.weather._renderer._layers._sky  # type: ignore[union-attr]
     assert sky is not None
     assert not sky.has_bow
 
 
 def test_a_rainbow_too_faint_for_any_pixel_is_not_drawn(stage: Stage) -> None:
     bow(stage, 10.0)
-    sky = stage.weather._renderer._sky  # type: ignore[union-attr]
+    sky = stage.weather._renderer._layers._sky  # type: ignore[union-attr]
     assert sky is not None and sky.has_bow
     stage.air.rainbow = 0.004
     bow(stage, 0.0)

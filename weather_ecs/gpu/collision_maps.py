@@ -1,0 +1,83 @@
+"""`CollisionMaps`: what of each observer's surroundings the rain hits, and what it shelters."""
+
+from __future__ import annotations
+
+import moderngl
+
+from weather_ecs.frame import ViewData
+from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.guard import StateGuard
+from weather_ecs.gpu.heightmap import Heightmap
+from weather_ecs.gpu.occluder_meshes import OccluderMeshes
+from weather_ecs.gpu.rain_blocks import SHELTER
+from weather_ecs.gpu.rain_pass import SHELTER_UNIT
+from weather_ecs.gpu.shader_loader import ShaderLoader
+from weather_ecs.physics.footprint import fall_speed_over, landing_wind
+
+
+class CollisionMaps:
+    """A heightmap for every observer, and the block that tells shaders how the last one lies."""
+
+    def __init__(self, ctx: moderngl.Context, guard: StateGuard, shaders: ShaderLoader) -> None:
+        self._ctx, self._guard = ctx, guard
+        self._largest = int(ctx.info["GL_MAX_TEXTURE_SIZE"])
+        self._maps: dict[int, Heightmap] = {}
+        self._meshes = OccluderMeshes(ctx, shaders)
+        self._block = BlockBuffer(ctx, SHELTER)
+
+    def of(self, key: int) -> Heightmap | None:
+        """The map of an observer, if there is one yet."""
+        return self._maps.get(key)
+
+    def capture(self, view: ViewData, wanted: int, wet: bool) -> bool:
+        """Bring an observer's map up to date; False where nothing shelters.
+
+        wanted: texels on a side by the quality. wet: whether the ground's water needs the map.
+        """
+        occluders = view.frame.occluders
+        if not occluders or not (view.containers or wet):
+            return False
+        heightmap = self._maps.get(view.key)
+        look = view.frame.heightmap
+        size = min(wanted * look.resolution, self._largest)
+        size = 4 * max(round(size / 4.0), 4)
+        if heightmap is None or heightmap.size != size:
+            if heightmap is not None:
+                heightmap.release()
+            heightmap = Heightmap(self._ctx, self._guard, self._meshes, size)
+            self._maps[view.key] = heightmap
+        wind, reach = landing_wind(view.frame.wind, view.frame.profile), view.frame.look.reach
+        speed = fall_speed_over(view.frame.areas["rain_rate"], view.frame.air.snow_share)
+        if heightmap.footprint is not None and not view.frame.areas["rain_rate"].any():
+            # Nothing falls: the map stays as it was, for what is still wet.
+            (x, z), speed = heightmap.footprint.slope, 1.0
+            wind = (x, 0.0, z)
+        if heightmap.capture(occluders, view.position, reach, wind, speed, look.extent):
+            self._meshes.keep(occluders)
+        heightmap.fill(self._block)
+        self._block.upload()
+        self._block.bind()
+        heightmap.texture.use(SHELTER_UNIT)
+        return True
+
+    def bind(self) -> None:
+        """Bind the block again."""
+        self._block.bind()
+
+    def use(self, key: int) -> None:
+        """Bind an observer's map again."""
+        self._maps[key].texture.use(SHELTER_UNIT)
+
+    def forget(self, key: int) -> None:
+        """Give back the map of an observer who is gone."""
+        heightmap = self._maps.pop(key, None)
+        if heightmap is not None:
+            heightmap.release()
+
+    def release(self) -> None:
+        """Give everything back; twice does no harm."""
+        for heightmap in self._maps.values():
+            heightmap.release()
+        self._maps.clear()
+        self._meshes.release()
+        self._block.release()
