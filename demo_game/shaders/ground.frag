@@ -1,10 +1,9 @@
+// Where it can, from what vertices hand on: see ground.vert.
 #include "frame.glsl"
 #include "tone.glsl"
 #include "fog_light.glsl"
 
 uniform sampler2D meadow_map;
-uniform vec4 map_window;   // low corner x, z, 1 / size x, z
-uniform vec3 sun_full;     // light of a sun that is faced
 #ifdef LIVE                // shadows move here
 uniform sampler2DShadow shadow_map;
 #endif
@@ -17,7 +16,13 @@ uniform sampler2D detail_map;
 
 in vec4 v_light;
 in vec4 v_haze;
-in vec4 v_view;
+in vec4 v_place;
+in vec4 v_maps;
+flat in vec3 v_eye;
+flat in vec3 v_sun;
+#ifdef LIVE
+in vec3 v_shadow;
+#endif
 in float v_snow;
 #ifdef NEAR
 in float v_gust;
@@ -31,24 +36,24 @@ in vec4 v_wild;
 out vec4 out_color;
 
 void main() {
-    vec3 p = camera.xyz - v_view.xyz;
+    vec3 p = v_place.xyz;
 #ifdef NEAR
     vec4 air = v_haze;
 #else
     vec4 air = haze_at(v_haze);
 #endif
-    vec4 painted = texture(meadow_map, (p.xz - map_window.xy) * map_window.zw);
+    vec4 painted = texture(meadow_map, v_maps.xy);
     vec3 albedo = painted.rgb * painted.rgb;
     float lit = painted.a;
 #ifdef LIVE
-    lit = texture(shadow_map, (shadow_matrix * vec4(p, 1.0)).xyz);
+    lit = texture(shadow_map, v_shadow);
 #endif
 #ifndef NEAR
     albedo = mix(v_wild.rgb, albedo, v_wild.a);
     lit = mix(1.0, lit, v_wild.a);
 #endif
     float bare = clamp((albedo.r - albedo.g) * 20.0 - 0.3, 0.0, 1.0);  // earth is redder than grass
-    float wet = v_view.w;
+    float wet = v_place.w;
 #ifdef NEAR
     vec4 detail = texture(detail_map, p.xz * 0.31) - 0.5;
     albedo *= 1.0 + mix(detail.b * 1.35 + v_gust, detail.g, bare);
@@ -67,10 +72,10 @@ void main() {
 #endif
     albedo = mix(albedo, snow, snowy);
     wet *= 1.0 - snowy;
-    vec3 color = albedo * (v_light.rgb + sun_full * (v_light.a * lit));
+    vec3 color = albedo * (v_light.rgb + v_sun * (v_light.a * lit));
 #ifdef WET
 #ifdef WATER
-    float water = weather_water_here(p, v_view.w);
+    float water = weather_water_at(v_maps.zw, p.y, v_place.w);
     wet = weather_damp(water) * (1.0 - snowy);
     float puddle = weather_pooled(water, 5.0 - 12.5 * detail.a);
 #else
@@ -78,7 +83,8 @@ void main() {
 #endif
     puddle *= bare * (1.0 - snowy);
     color *= 1.0 - wet * (0.28 + 0.20 * bare) - 0.25 * puddle;
-    float away = 1.0 - v_view.y * inversesqrt(dot(v_view.xyz, v_view.xyz));
+    vec3 view = v_eye - p;
+    float away = 1.0 - view.y * inversesqrt(dot(view, view));
     float away2 = away * away;
     float fresnel = 0.02 + 0.98 * away2 * away2 * away;
     // Ruffled, it mirrors more of what is high or of what is low.

@@ -13,9 +13,19 @@ in vec3 in_position;
 in vec4 in_normal;
 in vec4 in_color;     // square root of the albedo beyond the painted map, w: painted share
 
+uniform vec4 map_window;  // low corner x, z, 1 / size x, z
+uniform vec3 sun_full;    // light of a sun that is faced
+
 out vec4 v_light;     // sky's rgb, sun's facing
 out vec4 v_haze;
-out vec4 v_view;      // towards the camera, m; w wetness, or mm of water (NEAR, WATER)
+out vec4 v_place;     // m; w wetness, or mm of water (NEAR, WATER)
+out vec4 v_maps;      // places in the painted map and in that of the water
+// The same for all. From a block a software driver would fetch them for every few pixels anew.
+flat out vec3 v_eye;
+flat out vec3 v_sun;
+#ifdef LIVE
+out vec3 v_shadow;
+#endif
 out float v_snow;     // near: upward part of the normal; far: mm of snow
 #ifdef NEAR
 out float v_gust;     // how much brighter grass is that leans
@@ -44,13 +54,20 @@ void main() {
 #else
     v_haze = haze_depth(in_position);
 #endif
-    v_view = vec4(camera.xyz - in_position, cover.y);
+    v_place = vec4(in_position, cover.y);
+    v_maps = vec4((in_position.xz - map_window.xy) * map_window.zw, 0.0, 0.0);
+    v_eye = camera.xyz;
+    v_sun = sun_full;
+#ifdef LIVE
+    v_shadow = (shadow_matrix * vec4(in_position, 1.0)).xyz;
+#endif
 #ifdef NEAR
 #ifdef WET
-    vec3 up = normalize(v_view.xyz);
+    vec3 up = normalize(camera.xyz - in_position);
     v_sky = flash_on_sky(textureLod(sky_map, sky_uv_unit(up * vec3(-1.0, 1.0, -1.0)), 0.0).rgb);
 #ifdef WATER
-    v_view.w = weather_open_wetness(in_position);
+    v_place.w = weather_open_wetness(in_position);
+    v_maps.zw = weather_wet_place(in_position);
 #endif
 #endif
     v_gust = 0.45 * grass_lean(in_position.xz) - 0.12;

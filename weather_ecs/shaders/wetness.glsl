@@ -17,16 +17,30 @@ float weather_open_wetness(vec3 p)
     return texture(weather_wet_far, uv + 0.5).r * inside.x * inside.y;
 }
 
-// mm of water at p on what rain meets there, 0 under cover; `open_sky` where the map ends: what
-// weather_open_wetness says there, for which a game may ask in the vertex shader.
-float weather_water_here(vec3 p, float open_sky)
+// Where p is in the map, from which `weather_water_at` has the rest. Linear in p: a vertex shader may
+// hand it on, which spares the pixels the block.
+vec2 weather_wet_place(vec3 p)
 {
     vec2 uv = (p.xz + p.y * weather_wet_fall.xy - weather_wet_frame.xy) * weather_wet_frame.z;
-    vec2 here = texture(weather_wet_map, uv + 0.5).rg;
-    float below = here.g - p.y;
+    return weather_wet_fall.z > 0.5 ? uv + 0.5 : vec2(-9.0);
+}
+
+// mm of water at a place of the map and a height in m; `open_sky` where the map ends: what
+// weather_open_wetness says there, for which a game may ask in the vertex shader too.
+float weather_water_at(vec2 place, float height, float open_sky)
+{
+    vec2 here = texture(weather_wet_map, place).rg;
+    float below = here.g - height;
     // Under cover with a soft edge; what stands above the map's surface is not in it.
-    bool mapped = weather_wet_fall.z > 0.5 && max(abs(uv.x), abs(uv.y)) < 0.5 && below > -0.6;
+    vec2 aside = abs(place - 0.5);
+    bool mapped = max(aside.x, aside.y) < 0.5 && below > -0.6;
     return mapped ? here.r * (1.0 - smoothstep(0.35, 0.8, below)) : open_sky;
+}
+
+// The same at p, m.
+float weather_water_here(vec3 p, float open_sky)
+{
+    return weather_water_at(weather_wet_place(p), p.y, open_sky);
 }
 
 // mm of water at p on what rain meets there; 0 under cover, the open sky's where the map ends.
