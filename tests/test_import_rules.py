@@ -24,12 +24,13 @@ LAYERS: dict[str, tuple[set[str], set[str]]] = {
     ),
     "weather": ({"numpy", "esper", "pyglet"}, {"*"}),
     "metar": ({"metar"}, {"*"}),
+    "tools": ({"numpy"}, {"*"}),
     "editor": (
         {"numpy", "esper", "pyglet", "moderngl", "imgui_bundle", "OpenGL", "PIL", "imageio_ffmpeg"},
         {"*"},
     ),
 }
-TOP = ("weather", "editor")  # the layers that know of gpu
+TOP = ("weather", "tools", "editor")  # the layers that know of gpu
 # Of the editor, what has to work without a window and its widgets.
 EDITED = (
     *("document", "history", "content", "files", "recent", "kept_text", "toml_tree"),
@@ -38,7 +39,7 @@ EDITED = (
 # Every other module of the package: clock, snapshot, stats and their like.
 ELSEWHERE: tuple[set[str], set[str]] = ({"numpy", "esper"}, {"*"})  # all but gpu
 USERS = ("demo_game", "benchmarks")
-_FACES = ("components", "presets", "errors", "events", "editor.app")
+_FACES = ("components", "presets", "errors", "events", "tools", "editor.app")
 PUBLIC = {PACKAGE, *(f"{PACKAGE}.{name}" for name in _FACES)}
 LOADER = "gpu/shader_source.py"  # writes the version line that shader files do not hold
 

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from weather_ecs import QualitySettings, Weather
 from weather_ecs.components import Atmosphere, Cloud, CloudModel, CloudShading
-from weather_ecs.editor.inside import frame_of, in_world
+from weather_ecs.editor.inside import in_world
 from weather_ecs.editor.shared import Sunlight
-from weather_ecs.frame import CloudShapeData
+from weather_ecs.tools import CloudShapeData, frame_of
 
 HEIGHT = 1000.0  # m over the ground at which the model's origin stands, whatever its base
 SETTLING = 1.3  # s after a change in which the light still comes in

@@ -13,8 +13,7 @@ from weather_ecs.components import CloudModel, CloudSeed
 from weather_ecs.editor import rows, theme
 from weather_ecs.editor.rows import Thing
 from weather_ecs.editor.view_bar import tip_of_last
-from weather_ecs.gpu.cloud_images import images
-from weather_ecs.physics.cloud_images import CLOUD_IMAGES
+from weather_ecs.tools import CLOUD_IMAGES, cloud_images
 
 SIDE = 64  # texels of a small picture
 SHOWN = 38.0  # pixels on screen
@@ -109,7 +108,7 @@ def listed(names: set[str]) -> tuple[str, ...]:
 @cache
 def small_pictures() -> NDArray[np.uint8]:
     """(n * SIDE, SIDE, 3): each image over blue, lit from the upper left, one below the other."""
-    texels = images().astype(np.float64) / 255.0
+    texels = cloud_images().astype(np.float64) / 255.0
     n, size = len(texels), texels.shape[1]
     step = size // SIDE
     small = texels.reshape(n, SIDE, step, SIDE, step, 4).mean(axis=(2, 4))[:, ::-1]

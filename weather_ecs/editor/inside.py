@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from weather_ecs import Weather
 from weather_ecs.clock import STEP as STEP  # s, of a fixed step
 from weather_ecs.components import Wind
-from weather_ecs.frame import FrameData
 from weather_ecs.systems.atmosphere import covered_by as covered_by  # share of the sky
 from weather_ecs.systems.wind import strength, velocity_now
 from weather_ecs.weathers import heading_of as heading_of  # of a bearing, rad
@@ -32,11 +31,6 @@ def in_world(name: str) -> Iterator[None]:
         yield
     finally:
         esper.switch_world(before)
-
-
-def frame_of(weather: Weather) -> FrameData:
-    """What the weather would draw now: clouds, areas, wind and light as plain arrays."""
-    return weather._frame()
 
 
 def steps_of(weather: Weather) -> int:

@@ -15,7 +15,7 @@ from weather_ecs.editor.document import Content, Document
 from weather_ecs.editor.map_frame import Handle, MapFrame, dragged
 from weather_ecs.editor.shared import Shared
 from weather_ecs.editor.studio import Studio, studio_of
-from weather_ecs.frame import FrameData
+from weather_ecs.tools import FrameData
 
 MOST_CLOUDS = 2500  # drawn; of more every second, third … one
 LAND: theme.Color = (0.125, 0.150, 0.125, 1.0)

@@ -20,14 +20,13 @@ from weather_ecs.editor.inside import (
     STEP,
     entities_by_uid,
     forget_drawn,
-    frame_of,
     in_world,
     settle,
     steps_of,
 )
 from weather_ecs.editor.stage import Groups, Stage, groups_of, with_extras
 from weather_ecs.editor.timeline import Timeline
-from weather_ecs.frame import FrameData
+from weather_ecs.tools import FrameData, frame_of
 
 BUDGET = 0.012  # s of a frame that running and seeking may take
 SLOWEST, FASTEST = 0.05, 600.0  # s of weather in a second

@@ -84,6 +84,15 @@ def copy_pictures(height: int) -> None:
     _pictures.clear()
 
 
+def flight() -> tuple[float, float, float]:
+    """Where the keys that are held would go, each -1, 0 or 1: ahead, aside to the right, up."""
+    way = [0.0, 0.0, 0.0]
+    for key, axis, sign in _FLIGHT:
+        if imgui.is_key_down(key):
+            way[axis] += sign
+    return way[0], way[1], way[2]
+
+
 def steer(camera: OrbitCamera, height: float, dt: float) -> bool:
     """Move the camera as the mouse over the item just shown says; whether it has moved."""
     io = imgui.get_io()
@@ -101,12 +110,10 @@ def steer(camera: OrbitCamera, height: float, dt: float) -> bool:
             camera.orbit(dx, dy)
             moved = True
     if active and imgui.is_mouse_down(_RIGHT):
-        way = [0.0, 0.0, 0.0]
-        for key, axis, sign in _FLIGHT:
-            if imgui.is_key_down(key):
-                way[axis] += sign * (4.0 if io.key_shift else 1.0)
-        if any(way):
-            camera.fly(way[0], way[1], way[2], dt)
+        ahead, aside, above = flight()
+        if ahead or aside or above:
+            fast = 4.0 if io.key_shift else 1.0
+            camera.fly(fast * ahead, fast * aside, fast * above, dt)
             moved = True
     if imgui.is_item_hovered() and io.mouse_wheel:
         camera.zoom(io.mouse_wheel)

@@ -16,14 +16,6 @@ if TYPE_CHECKING:
     from weather_ecs.editor.shared import Shared
 
 _POINTS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
-_STEPS = (
-    (imgui.Key.w, 0, 1.0),
-    (imgui.Key.s, 0, -1.0),
-    (imgui.Key.d, 1, 1.0),
-    (imgui.Key.a, 1, -1.0),
-    (imgui.Key.e, 2, 1.0),
-    (imgui.Key.q, 2, -1.0),
-)
 _V = imgui.ImVec2
 
 
@@ -55,12 +47,9 @@ class WorldView:
             camera.zoom(io.mouse_wheel)
         if io.want_text_input or io.key_ctrl or not (hovered or imgui.is_item_active()):
             return
-        way = [0.0, 0.0, 0.0]
-        for key, axis, sign in _STEPS:
-            if imgui.is_key_down(key):
-                way[axis] += sign
-        if any(way):
-            camera.move(way[0], way[1], way[2], min(shared.dt, 0.1), fast=io.key_shift)
+        ahead, aside, above = view.flight()
+        if ahead or aside or above:
+            camera.move(ahead, aside, above, min(shared.dt, 0.1), fast=io.key_shift)
 
 
 def _draw_bar(studio: Studio) -> None:

@@ -15,7 +15,7 @@ from weather_ecs.editor.document import Content, Document
 from weather_ecs.editor.shared import Shared
 from weather_ecs.editor.studio import studio_of
 from weather_ecs.editor.view_bar import tip_of_last
-from weather_ecs.physics.climate import shares
+from weather_ecs.tools import sky_shares
 
 
 class SkyPanel:
@@ -40,12 +40,12 @@ class SkyPanel:
     def _draw_list(self, document: Document, shared: Shared, layer: SkyLayer) -> None:
         chosen = shared.selection.sky
         state = studio_of(shared).simulation.weather.stats.state
-        parts = shares([sky.state for sky in layer.skies], state).tolist() if layer.skies else []
+        states = [sky.state for sky in layer.skies]
+        parts = sky_shares(states, state).tolist() if states else []
         with items.well("skies", len(layer.skies)):
             for k, sky in sorted(enumerate(layer.skies), key=lambda each: each[1].state):
-                if imgui.selectable(f"{sky.state:.2f} {name_of(sky.state)}##sky{k}", k == chosen)[
-                    0
-                ]:
+                label = f"{sky.state:.2f} {name_of(sky.state)}##sky{k}"
+                if imgui.selectable(label, k == chosen)[0]:
                     shared.selection.sky = chosen = k
                     shared.focus = "sky"
                 imgui.same_line(imgui.get_window_width() * 0.44)

@@ -13,7 +13,7 @@ from weather_ecs.editor.shared import Shared
 from weather_ecs.editor.simulation import FASTEST, SLOWEST, Simulation
 from weather_ecs.editor.studio import studio_of
 from weather_ecs.editor.view_bar import tip_of_last
-from weather_ecs.physics.climate import state as state_at
+from weather_ecs.tools import climate_state
 
 STEPS = ((0.05, "1 tick"), (1.0, "1 s"), (10.0, "10 s"), (60.0, "1 min"))
 _V = imgui.ImVec2
@@ -162,7 +162,7 @@ def state_after(climate: Climate, seconds: float) -> float:
     """The state of a climate after so many seconds of weather."""
     passed = seconds * climate.speed if climate.running else 0.0
     elapsed = min(max(climate.elapsed + passed, 0.0), climate.duration)
-    return state_at(climate.initial, climate.final, climate.duration, elapsed)
+    return climate_state(climate.initial, climate.final, climate.duration, elapsed)
 
 
 def clock(seconds: float) -> str:
