@@ -7,14 +7,18 @@ from importlib import resources
 
 from weather_ecs.errors import InvalidValueError
 
-PUBLIC = ("cloud_shadow.glsl", "ripple_sample.glsl", "sky.glsl", "weather.glsl", "wetness.glsl")
+PUBLIC = (
+    "cloud_shadow.glsl", "heightmap.glsl", "ripple_sample.glsl", "sky.glsl", "weather.glsl",
+    "wetness.glsl",
+)  # fmt: skip
 
 
 @cache
 def glsl(name: str) -> str:
     """Text of one of the package's public includes, without `#version`, to be pasted in.
 
-    `cloud_shadow.glsl`: see `Weather.cloud_shadow`; `ripple_sample.glsl`: see `Weather.ripples`;
+    `cloud_shadow.glsl`: see `Weather.cloud_shadow`; `heightmap.glsl`: see `Weather.heightmap`;
+    `ripple_sample.glsl`: see `Weather.ripples`;
     `sky.glsl`: see `Weather.sky`;
     `weather.glsl`: see `Weather.air`; `wetness.glsl`: see `Weather.wetness`.
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from weather_ecs.gpu.renderer import Renderer
     from weather_ecs.gpu.ripple_map import RippleMap
     from weather_ecs.gpu.weather_air import WeatherAir
+    from weather_ecs.gpu.weather_heightmap import WeatherHeightmap
     from weather_ecs.gpu.weather_sky import WeatherSky
     from weather_ecs.gpu.wetness_map import WetnessMap
 
@@ -159,6 +160,16 @@ class Weather(Contents):
         self._check_drawing(observer)
         with current(self._window):
             return self._ready_renderer().wetness(self._keys.key(observer))
+
+    def heightmap(self, *, observer: Observer | None = None) -> WeatherHeightmap:
+        """What rain meets first, for a game's own shaders: see `heightmap.glsl`.
+
+        The same object for good; what it binds is what the last draw left. Raises ContextError
+        without OpenGL.
+        """
+        self._check_drawing(observer)
+        with current(self._window):
+            return self._ready_renderer().weather_heightmap(self._keys.key(observer))
 
     def cloud_shadow(self, *, observer: Observer | None = None) -> CloudShadow:
         """The clouds' shadows on the ground, for a game's own shaders: see `cloud_shadow.glsl`.

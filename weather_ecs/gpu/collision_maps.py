@@ -12,6 +12,7 @@ from weather_ecs.gpu.occluder_meshes import OccluderMeshes
 from weather_ecs.gpu.rain_blocks import SHELTER
 from weather_ecs.gpu.rain_pass import SHELTER_UNIT
 from weather_ecs.gpu.shader_loader import ShaderLoader
+from weather_ecs.gpu.weather_heightmap import WeatherHeightmap
 from weather_ecs.physics.footprint import fall_speed_over, landing_wind
 
 
@@ -22,12 +23,22 @@ class CollisionMaps:
         self._ctx, self._guard = ctx, guard
         self._largest = int(ctx.info["GL_MAX_TEXTURE_SIZE"])
         self._maps: dict[int, Heightmap] = {}
+        self._opened: dict[int, WeatherHeightmap] = {}  # to the game
         self._meshes = OccluderMeshes(ctx, shaders)
         self._block = BlockBuffer(ctx, SHELTER)
 
     def of(self, key: int) -> Heightmap | None:
         """The map of an observer, if there is one yet."""
         return self._maps.get(key)
+
+    def opened(self, key: int) -> WeatherHeightmap | None:
+        """What a game's shaders read of an observer's map, if they have asked before."""
+        return self._opened.get(key)
+
+    def open(self, key: int) -> WeatherHeightmap:
+        """What a game's shaders read of an observer's map from now on."""
+        made = self._opened[key] = WeatherHeightmap(self._ctx, lambda: self._maps.get(key))
+        return made
 
     def capture(self, view: ViewData, wanted: int, wet: bool) -> bool:
         """Bring an observer's map up to date; False where nothing shelters.
@@ -70,14 +81,15 @@ class CollisionMaps:
 
     def forget(self, key: int) -> None:
         """Give back the map of an observer who is gone."""
-        heightmap = self._maps.pop(key, None)
-        if heightmap is not None:
-            heightmap.release()
+        for thing in (self._maps.pop(key, None), self._opened.pop(key, None)):
+            if thing is not None:
+                thing.release()
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
-        for heightmap in self._maps.values():
-            heightmap.release()
+        for thing in (*self._opened.values(), *self._maps.values()):
+            thing.release()
+        self._opened.clear()
         self._maps.clear()
         self._meshes.release()
         self._block.release()

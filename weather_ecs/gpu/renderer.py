@@ -28,6 +28,7 @@ from weather_ecs.gpu.splash_pass import SplashPass
 from weather_ecs.gpu.timer import GpuTimer
 from weather_ecs.gpu.view_block import fill_view
 from weather_ecs.gpu.weather_air import WeatherAir
+from weather_ecs.gpu.weather_heightmap import WeatherHeightmap
 from weather_ecs.gpu.weather_sky import WeatherSky
 from weather_ecs.gpu.wetness_map import WetnessMap
 from weather_ecs.gpu.wetness_pass import WetnessPass
@@ -82,7 +83,7 @@ class Renderer:
         self._ripples = keep(RipplePass(ctx, shaders, rain))
         self._gauges = keep(GaugePass(ctx, shaders, rain))
         self._wetness = keep(WetnessPass(ctx, gl, shaders))
-        self._clouds = keep(CloudPass(ctx, shaders))
+        self._clouds = keep(CloudPass(ctx, gl, shaders))
         self._maps = keep(CollisionMaps(ctx, self._guard, shaders))
         moved = Moved(rain, self._splash, self._ripples, self._clouds, self._maps)
         self._layers = Layers(ctx, gl, self._guard, shaders, moved, self._kept)
@@ -114,6 +115,14 @@ class Renderer:
             return known
         with self._guard:
             return self._wetness.map(key)
+
+    def weather_heightmap(self, key: int = 0) -> WeatherHeightmap:
+        """What rain meets around an observer, for a game's own shaders."""
+        known = self._maps.opened(key)
+        if known is not None:
+            return known
+        with self._guard:
+            return self._maps.open(key)
 
     def air(
         self, key: int, frame: FrameData, y: float, rate: float, place: tuple[float, float]
