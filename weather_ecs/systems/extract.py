@@ -34,6 +34,7 @@ from weather_ecs.frame import (
     AREA_DTYPE,
     LIGHT_DTYPE,
     AirData,
+    CloudShapeData,
     DropLook,
     FogData,
     FrameData,
@@ -48,7 +49,7 @@ from weather_ecs.frame import (
 )
 from weather_ecs.systems.air import air_data, fog_data
 from weather_ecs.systems.atmosphere import Daylight
-from weather_ecs.systems.cloud_list import CloudList
+from weather_ecs.systems.cloud_list import NO_CLOUDS, CloudList
 from weather_ecs.systems.gauge import GaugeList
 from weather_ecs.systems.lightning import settings_of
 from weather_ecs.systems.looks import (
@@ -82,7 +83,8 @@ _KINDS = (
     CloudShading,
     Lightning,
 )
-_ALL: tuple[type[Component], ...] = (*SNAPSHOT_COMPONENTS.values(), Occluder, RainGauge)
+_MORE = {*SNAPSHOT_COMPONENTS.values(), Occluder, RainGauge} - {*_KINDS}
+_ALL: tuple[type[Component], ...] = (*_KINDS, *_MORE)
 _NO_AREAS = empty(AREA_DTYPE)
 _NO_LIGHTS = empty(LIGHT_DTYPE)
 
@@ -97,8 +99,8 @@ class ExtractSystem:
 
     def __init__(self) -> None:
         self._frame: FrameData | None = None
-        self._lists: tuple[list[Any], ...] = ()
-        self._revisions: tuple[int, ...] = ()
+        self._lists: list[list[Any]] = []
+        self._revisions: list[int] = []
         self._entities: list[int] = []
         self._still: NDArray = _NO_AREAS  # the areas where the last fixed step left them
         self._changing: list[tuple[int, RainArea]] = []  # areas whose rain begins or ends
@@ -141,7 +143,7 @@ class ExtractSystem:
         seen = self._look(state)
         if seen == self._seen and self._frame is not None:
             return self._frame
-        frame = self._extract(state)
+        frame = self._extract(state, seen[0][: len(_KINDS)], seen[-1][: len(_KINDS)])
         self._seen = seen
         return frame
 
@@ -159,9 +161,9 @@ class ExtractSystem:
             lists,
         )
 
-    def _extract(self, state: WeatherState) -> FrameData:
-        lists = tuple([esper.get_component(kind) for kind in _KINDS])
-        revisions = tuple([kind._revision[0] for kind in _KINDS])
+    def _extract(
+        self, state: WeatherState, revisions: list[int], lists: list[list[Any]]
+    ) -> FrameData:
         if (
             self._frame is None
             or revisions != self._revisions
@@ -180,14 +182,22 @@ class ExtractSystem:
         if frame is None or time != self._time or occluders is not frame.occluders:
             self._time = time
             self._frame = frame = self._at_time(state, occluders, gauges)
-        elif gauges is not frame.gauges:
+            return frame
+        if gauges is not frame.gauges:
             self._frame = frame = replace(frame, gauges=gauges)
-        if state.drawn:
-            clouds, shapes = self._clouds.collect(state, frame.sky, frame.wind, frame.profile)
-            clouds = self._strikes.lit(clouds, shapes, frame.strikes)
-            if clouds is not frame.clouds or shapes is not frame.cloud_shapes:
-                self._frame = frame = replace(frame, clouds=clouds, cloud_shapes=shapes)
+        clouds, shapes = self._cloud_rows(state, frame.strikes)
+        if clouds is not frame.clouds or shapes is not frame.cloud_shapes:
+            self._frame = frame = replace(frame, clouds=clouds, cloud_shapes=shapes)
         return frame
+
+    def _cloud_rows(
+        self, state: WeatherState, strikes: NDArray
+    ) -> tuple[NDArray, tuple[CloudShapeData, ...]]:
+        """The clouds that a picture shows, lit by the lightning in them."""
+        if not state.drawn:
+            return NO_CLOUDS, ()
+        clouds, shapes = self._clouds.collect(state, self._parts[1], self._wind, self._profile)
+        return self._strikes.lit(clouds, shapes, strikes), shapes
 
     def _at_time(
         self,
@@ -204,6 +214,8 @@ class ExtractSystem:
             areas["center"] += self._velocity * clock.remainder
             areas.setflags(write=False)
         lights, sky, look = self._parts
+        strikes = self._strikes.rows(state, self._brightness)
+        clouds, shapes = self._cloud_rows(state, strikes)
         return FrameData(
             time=clock.time,
             step=clock.steps,
@@ -225,7 +237,9 @@ class ExtractSystem:
             fog=self._fog,
             profile=self._profile,
             atmosphere=self._daylight.data,
-            strikes=self._strikes.rows(state, self._brightness),
+            strikes=strikes,
+            clouds=clouds,
+            cloud_shapes=shapes,
             lightning=self._lightning,
             fronts=dry_spells(self._changing, state.fronts, clock.remainder),
             carried=frozenset(state.clouds.rain.values()),
