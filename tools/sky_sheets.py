@@ -60,7 +60,7 @@ def halo(stage: Stage, out: Path) -> None:
     game.weather.change_to(ICE, 0.0)
     game.sky.be("afternoon")
     game.settings.field_of_view = 90.0
-    _face(stage, game, 6.0, towards=True)
+    _face(stage, game, 25.0, towards=True)
     stage.settle(game)
     shown = _with_and_without(stage, game, "halo", 60.0)
     apart = _angles(stage, game, game.weather.light.sun_direction)
