@@ -87,9 +87,7 @@ class CollisionMaps:
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
-        for thing in (*self._opened.values(), *self._maps.values()):
-            thing.release()
-        self._opened.clear()
-        self._maps.clear()
+        for key in {*self._maps, *self._opened}:
+            self.forget(key)
         self._meshes.release()
         self._block.release()
