@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import moderngl
 
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.cloud_groups import Group
+from weather_ecs.gpu.cloud_hidden import below
 from weather_ecs.gpu.cloud_programs import UNITS, CloudPrograms
 from weather_ecs.gpu.cloud_sequence import Items
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
@@ -41,9 +44,12 @@ class CloudCanvases:
         self._shown: list[Canvas] = []
 
     def paint(
-        self, groups: list[Group], items: Items, programs: CloudPrograms, size: tuple[int, int]
-    ) -> None:
-        """Paint what the groups hold. size: of the picture, pixels. Changes framebuffer and state.
+        self, groups: list[Group], items: Items, programs: CloudPrograms,
+        size: tuple[int, int], low: float,
+    ) -> None:  # fmt: skip
+        """Paint what the groups hold, above a height. Changes framebuffer and state.
+
+        size: of the picture, pixels; low: the height in it, -1 to 1.
 
         What the programs draw, they draw for the picture's camera.
         """
@@ -59,7 +65,11 @@ class CloudCanvases:
             canvas.framebuffer.use()
             canvas.framebuffer.clear(0.0, 0.0, 0.0, 0.0)
             programs.meet_from(size, canvas.texture.size, group.depth)
+            width, height = canvas.texture.size
+            framebuffer: Any = canvas.framebuffer  # moderngl's stubs know no scissor of None
+            framebuffer.scissor = 0, below(low, height), width, height
             programs.draw(items.part(group.first, group.last))
+            framebuffer.scissor = None
 
     def _canvas(self, factor: int, number: int) -> Canvas:
         width, height = (-(-side // factor) for side in self._size)

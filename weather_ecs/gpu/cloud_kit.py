@@ -26,6 +26,19 @@ class Releasable(Protocol):
 Thing = TypeVar("Thing", bound=Releasable)
 
 
+class CloudSettings(Protocol):
+    """What the clouds need of the quality settings."""
+
+    @property
+    def cloud_billboards(self) -> int: ...
+    @property
+    def cloud_impostors(self) -> int: ...
+    @property
+    def cloud_tile(self) -> int: ...
+    @property
+    def cloud_atlas(self) -> int: ...
+
+
 class CloudKit(NamedTuple):
     """The parts, in the order in which they are made."""
 

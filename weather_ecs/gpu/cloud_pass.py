@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, Protocol
 
 import moderngl
 import numpy as np
@@ -11,52 +10,41 @@ from numpy.typing import NDArray
 
 from weather_ecs.frame import ViewData
 from weather_ecs.gpu.cloud_groups import Group, find_groups
+from weather_ecs.gpu.cloud_hidden import Window, hidden_below
 from weather_ecs.gpu.cloud_impostors import Impostors, Plan
 from weather_ecs.gpu.cloud_items import INSIDE, items_of, meeting, picture_kinds
-from weather_ecs.gpu.cloud_kit import make_kit
+from weather_ecs.gpu.cloud_kit import CloudSettings, make_kit
 from weather_ecs.gpu.cloud_order import CloudOrder
 from weather_ecs.gpu.cloud_programs import UNITS, camera_matrix
-from weather_ecs.gpu.cloud_scene import CloudScene, haze_of, rows_of, scene_of, surround_of
+from weather_ecs.gpu.cloud_scene import (
+    CloudScene,
+    haze_of,
+    light_numbers,
+    rows_of,
+    scene_of,
+    surround_of,
+)
 from weather_ecs.gpu.cloud_seen import SeenClouds
-from weather_ecs.gpu.cloud_sequence import BILLBOARDS, SOFT, Items
+from weather_ecs.gpu.cloud_sequence import BILLBOARDS, SOFT, Between, Items
 from weather_ecs.gpu.cloud_shadow_pass import CloudShadowPass
 from weather_ecs.gpu.cloud_store import CloudStore
+from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.shader_loader import ShaderLoader
-from weather_ecs.physics.cloud_light import Surround
 
 STILL = 1.0 / 60.0  # s, that a draw counts for at least: a paused sky still takes over its light
-
-
-class CloudSettings(Protocol):
-    """What the clouds need of the quality settings."""
-
-    @property
-    def cloud_billboards(self) -> int: ...
-    @property
-    def cloud_impostors(self) -> int: ...
-    @property
-    def cloud_tile(self) -> int: ...
-    @property
-    def cloud_atlas(self) -> int: ...
-
-
-class Between(NamedTuple):
-    """Something that is drawn among the clouds, at its distance from the camera in m."""
-
-    distance: float
-    draw: Callable[[], None]
 
 
 class CloudPass:
     """`update` takes pictures of clouds into atlases; `draw` draws into what the host has bound."""
 
-    def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader) -> None:
+    def __init__(self, ctx: moderngl.Context, gl: GL, shaders: ShaderLoader) -> None:
         self._ctx, self._shaders = ctx, shaders
         self._store: CloudStore | None = None  # made with the first clouds
         self._observers: dict[int, Impostors] = {}
         self._orders: dict[int, CloudOrder] = {}
         self._groups: list[Group] = []
         self._sight = SeenClouds()
+        self._window = Window(gl)
         self.stats = {"clouds_drawn": 0, "impostors_refreshed": 0, "cloud_billboards": 0}
         self.shadows = CloudShadowPass(ctx, shaders, UNITS)
         self.impostors_on = True  # False: billboards alone; for tests and comparisons
@@ -100,8 +88,11 @@ class CloudPass:
         scene = self._scene = scene_of(view, store, height)
         light = surround_of(view)
         self.shadows.update(view, scene, store, self._programs.images)
+        self._window.low = hidden_below(view, scene)
+        if self._window.low >= 1.0:
+            scene.hide()
         impostors = self._impostors(view.key, settings)
-        impostors.follow(scene, _numbers(view, light), dt)
+        impostors.follow(scene, light_numbers(view, light), dt)
         plan = self._plan_now = self._plan(scene, impostors, settings)
         self._haze = haze_of(view, light, scene.center)
         self._arrange(view.key, scene, plan, dt)
@@ -210,24 +201,30 @@ class CloudPass:
         if self._groups or meets.any():
             depth().use(UNITS["scene_depth"])
         if self._groups:
-            self._canvases.paint(self._groups, items, self._programs, viewport[2:])
+            self._canvases.paint(
+                self._groups, items, self._programs, viewport[2:], self._window.low
+            )
         self._programs.meet(*viewport[:2])
-        self._items = items
+        self._items, self._window.viewport = items, viewport
 
     def draw(self, view: ViewData, between: Between | None = None) -> None:
         """Draw the visible clouds; blending, depth test and no depth writes are the caller's."""
         items = self._items
         self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+        self._window.on()
         if between is None:
             self._sequence(items, True)
         else:
             before, after = items.parted(self._middles(between.distance))
             self._sequence(before, True)
+            self._window.off()
             between.draw()
+            self._window.on()
             self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             self._sequence(after, False)
         if view.frame.cloud_look.rays:
             self._rays.draw(self._scene, self._store, self._real, self._matrix, self._rows)
+        self._window.off()
         if self._is_inside:
             self._inside.draw(view.projection)
         self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
@@ -291,11 +288,3 @@ class CloudPass:
         if self._store is not None:
             self._kit.release()
             self._store = None
-
-
-def _numbers(view: ViewData, light: Surround) -> NDArray[np.float64]:
-    """What all impostors are lit by; a change of 0.02 in one of them is too much."""
-    look = view.frame.cloud_look
-    colors = np.concatenate([light.sun, light.above, light.below, light.plain])
-    strengths = (look.silver, look.base, look.ambient, float(look.plain))
-    return np.concatenate([light.direction, colors, strengths])

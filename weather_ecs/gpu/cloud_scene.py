@@ -36,6 +36,11 @@ class CloudScene:
     unit: float  # pixels that a unit of width at unit depth takes
     parallel: bool  # the camera's rays are: no impostors then
 
+    def hide(self) -> None:
+        """None of the clouds is seen after all."""
+        self.visible[:] = False
+        self.order = self.order[:0]
+
 
 def surround_of(view: ViewData) -> Surround:
     """The light of a view's sky."""
@@ -111,3 +116,11 @@ def half_sizes(scene: CloudScene, which: NDArray[np.intp]) -> Floats:
     half = scene.half[which].copy()
     half[:, 0] = half[:, 2] = np.maximum(half[:, 0], half[:, 2])
     return half
+
+
+def light_numbers(view: ViewData, light: Surround) -> Floats:
+    """What all impostors are lit by; a change of 0.02 in one of them is too much."""
+    look = view.frame.cloud_look
+    colors = np.concatenate([light.sun, light.above, light.below, light.plain])
+    strengths = (look.silver, look.base, look.ambient, float(look.plain))
+    return np.concatenate([light.direction, colors, strengths])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +10,13 @@ from numpy.typing import NDArray
 
 # How an item is drawn. Billboards count in the stream, pictures in the rows of quads.
 BILLBOARDS, SOFT, PICTURE, FADING, LIT = range(5)
+
+
+class Between(NamedTuple):
+    """Something that is drawn among the clouds, at its distance from the camera in m."""
+
+    distance: float
+    draw: Callable[[], None]
 
 
 class Items(NamedTuple):

@@ -1,0 +1,81 @@
+"""How high in the picture rain hides the clouds: what is below needs no drawing.
+
+Veils are drawn over the clouds. Where so much rain is before the lowest of these that no pixel
+could tell them from what is behind, they only cost.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from weather_ecs.frame import ViewData
+from weather_ecs.gpu import gl_enums as e
+from weather_ecs.gpu.cloud_scene import CloudScene
+from weather_ecs.gpu.gl import GL
+from weather_ecs.gpu.veil_list import important, rays
+from weather_ecs.physics.front import SETTLED
+from weather_ecs.physics.veil import curtain_share, rain_path
+
+LINES, COLUMNS = 33, 5  # of the picture, that are looked along
+OPAQUE = math.log(2.0 * 255.0)  # optical depth behind which white and black are the same
+MOST = 4  # veils that are looked at
+UNDER = 0.08  # of half its height, as far as a cloud shows below its base; see cloud.vert
+
+
+def hidden_below(view: ViewData, scene: CloudScene) -> float:
+    """Height in the picture, -1 to 1, below which rain hides all clouds; -1: nowhere."""
+    y = view.position[1]
+    over = [veil for veil in view.veils if veil.span[1] >= y and veil.dry == SETTLED]
+    thick = important(view, over)[:MOST]
+    if scene.parallel or not len(scene.order) or sum(each.optical for each in thick) < OPAQUE:
+        return -1.0
+    seen = scene.order
+    lowest = scene.center[seen, 1] + scene.base[seen] - UNDER * scene.half[seen, 1]
+    height = float(lowest.min())
+    if height <= 1.0:
+        return -1.0
+    middle, right, up = rays(view)
+    lines = np.linspace(-1.0, 1.0, LINES)
+    across = np.linspace(-1.0, 1.0, COLUMNS)
+    ray = middle + lines[:, None, None] * up + across[:, None] * right
+    # Nothing of the scene that is seen behind a cloud is nearer than the cloud's base.
+    rise = np.maximum(ray[..., 1], 1e-6)
+    end = height / rise
+    depth = np.zeros(ray.shape[:2])
+    for veil in (each.veil for each in thick):
+        place = view.position, ray, end, veil.axis, veil.shape, veil.span[1], veil.shown
+        share = curtain_share(*place, veil.top, veil.ragged, veil.phase, veil.drift)
+        depth += veil.extinction * rain_path(*place) * share
+    hidden = ((depth > OPAQUE) | (ray[..., 1] <= 0.0)).all(axis=1)
+    if hidden.all():
+        return 1.0
+    first = int(np.argmin(hidden))
+    return float(lines[first - 1]) if first > 0 else -1.0
+
+
+class Window:
+    """The part of the picture above a height, -1 to 1; while it is on, all that is drawn."""
+
+    def __init__(self, gl: GL) -> None:
+        self._gl = gl
+        self.low = -1.0
+        self.viewport = (0, 0, 0, 0)
+
+    def on(self) -> None:
+        """From now on."""
+        if self.low > -1.0:
+            x, y, width, height = self.viewport
+            self._gl.glScissor(x, y + below(self.low, height), width, height)
+            self._gl.glEnable(e.SCISSOR_TEST)
+
+    def off(self) -> None:
+        """No more."""
+        if self.low > -1.0:
+            self._gl.glDisable(e.SCISSOR_TEST)
+
+
+def below(low: float, height: int) -> int:
+    """Rows of a picture so many pixels high that are all below a height, -1 to 1."""
+    return math.floor((0.5 * low + 0.5) * height)
