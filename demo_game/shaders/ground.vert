@@ -64,7 +64,8 @@ void main() {
 #ifdef NEAR
 #ifdef WET
     vec3 up = normalize(camera.xyz - in_position);
-    v_sky = flash_on_sky(textureLod(sky_map, sky_uv_unit(up * vec3(-1.0, 1.0, -1.0)), 0.0).rgb);
+    v_sky = flash_on_sky(textureLod(sky_map, sky_uv_unit(up * vec3(-1.0, 1.0, -1.0)), 0.0).rgb,
+                         flash_left());
 #ifdef WATER
     v_place.w = weather_open_wetness(in_position);
     v_maps.zw = weather_wet_place(in_position);

@@ -14,7 +14,7 @@ out vec3 v_color;
 void main() {
     vec2 at = sky_uv(in_direction);
     vec3 before = textureLod(sky_before, at, 0.0).rgb;
-    v_color = flash_on_sky(mix(before, textureLod(sky_after, at, 0.0).rgb, share));
+    v_color = flash_on_sky(mix(before, textureLod(sky_after, at, 0.0).rgb, share), flash_left());
     vec4 place = to_clip * vec4(in_direction, 1.0);
     gl_Position = vec4(place.xy, place.w, place.w);  // behind everything
 }

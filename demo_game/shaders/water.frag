@@ -3,7 +3,6 @@
 #include "tone.glsl"
 #include "sky_map.glsl"
 #include "ripple_sample.glsl"
-#include "flash.glsl"
 
 uniform sampler2D detail_map;
 uniform sampler2D sky_map;
@@ -12,6 +11,7 @@ in vec4 v_view;
 in vec3 v_light;
 in vec4 v_haze;
 in vec2 v_place;
+flat in vec3 v_left;  // of the sky's darkness, by lightning
 
 out vec4 out_color;
 
@@ -25,7 +25,7 @@ void main() {
     float facing = max(view.y - dot(slope, view.xz), 0.0);
     vec3 mirrored = vec3(wave * 0.05 - view.xz - slope * (2.0 * facing), 2.0 * facing - view.y).xzy;
     vec3 sky = texture(sky_map, sky_uv_unit(vec3(mirrored.x, abs(mirrored.y), mirrored.z))).rgb;
-    sky = flash_on_sky(sky);
+    sky = 1.0 - (1.0 - sky) * v_left;
     float away = 1.0 - facing;
     float away2 = away * away;
     float fresnel = 0.02 + 0.98 * away2 * away2 * away;
