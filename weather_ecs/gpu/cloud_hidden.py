@@ -16,7 +16,7 @@ from weather_ecs.gpu.cloud_scene import CloudScene
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.veil_list import important, rays
 from weather_ecs.physics.front import SETTLED
-from weather_ecs.physics.veil import curtain_share, rain_path
+from weather_ecs.physics.veil import BEYOND, curtain_share, rain_path
 
 LINES, COLUMNS = 33, 5  # of the picture, that are looked along
 OPAQUE = math.log(2.0 * 255.0)  # optical depth behind which white and black are the same
@@ -26,29 +26,31 @@ UNDER = 0.08  # of half its height, as far as a cloud shows below its base; see 
 
 def hidden_below(view: ViewData, scene: CloudScene) -> float:
     """Height in the picture, -1 to 1, below which rain hides all clouds; -1: nowhere."""
-    y = view.position[1]
-    over = [veil for veil in view.veils if veil.span[1] >= y and veil.dry == SETTLED]
-    thick = important(view, over)[:MOST]
-    if scene.parallel or not len(scene.order) or sum(each.optical for each in thick) < OPAQUE:
-        return -1.0
     seen = scene.order
+    if scene.parallel or not len(seen):
+        return -1.0
     lowest = scene.center[seen, 1] + scene.base[seen] - UNDER * scene.half[seen, 1]
-    height = float(lowest.min())
-    if height <= 1.0:
+    return opaque_below(view, float(lowest.min()))
+
+
+def opaque_below(view: ViewData, height: float = math.inf) -> float:
+    """Height in the picture, -1 to 1, below which rain hides what is so many m over the camera."""
+    over = [veil for veil in view.veils if veil.span[1] >= view.position[1]]
+    thick = important(view, [veil for veil in over if veil.dry == SETTLED])[:MOST]
+    if height <= 1.0 or sum(each.optical for each in thick) < OPAQUE:
         return -1.0
     middle, right, up = rays(view)
     lines = np.linspace(-1.0, 1.0, LINES)
     across = np.linspace(-1.0, 1.0, COLUMNS)
     ray = middle + lines[:, None, None] * up + across[:, None] * right
     # Nothing of the scene that is seen behind a cloud is nearer than the cloud's base.
-    rise = np.maximum(ray[..., 1], 1e-6)
-    end = height / rise
+    end = np.minimum(height / np.maximum(ray[..., 1], 1e-6), BEYOND)
     depth = np.zeros(ray.shape[:2])
     for veil in (each.veil for each in thick):
         place = view.position, ray, end, veil.axis, veil.shape, veil.span[1], veil.shown
         share = curtain_share(*place, veil.top, veil.ragged, veil.phase, veil.drift)
         depth += veil.extinction * rain_path(*place) * share
-    hidden = ((depth > OPAQUE) | (ray[..., 1] <= 0.0)).all(axis=1)
+    hidden = (depth > OPAQUE).all(axis=1)
     if hidden.all():
         return 1.0
     first = int(np.argmin(hidden))

@@ -27,6 +27,7 @@ ENOUGH = 0.7  # texels of a picture for each of its pixels
 LARGE = 1.6  # pixels for each texel of the largest picture, above which billboards are drawn
 UNIT = 96  # texels, height of a picture as the budget counts them
 WAITING = 4  # times as many are taken of clouds that have none yet
+ASIDE = 0.06  # of half a picture, by which an older one may lie beside its successor
 PIXELS_OFF = 1.3  # parallax that is let be
 _STATE = np.array([0.04, 0.05, 0.06, 0.04, 0.04])  # changes that are let be
 
@@ -194,6 +195,7 @@ class Impostors:
         if kept["tile"][index, 2]:
             kept["old_tile"][index] = kept["tile"][index]
             kept["old_quad"][index] = kept["quad"][index]
+            kept["old_cuts"][index] = kept["cuts"][index]
             kept["share"][index] = 0.0
         kept["tile"][index] = tile
         way, right, up = bounds.axes
@@ -229,7 +231,8 @@ class Impostors:
         rows[:, 5, :3] += center
         rows[:, 5:8, 3] = self._frames(kept["old_tile"])
         # The older picture may show something where the newer one has nothing.
-        rows[:, 8] = np.where(kept["share"][:, None] < 1.0, 2.0, kept["cuts"])
+        both = np.minimum(np.maximum(kept["cuts"], kept["old_cuts"]) + ASIDE, 2.0)
+        rows[:, 8] = np.where(kept["share"][:, None] < 1.0, both, kept["cuts"])
         return rows
 
     def _frames(self, tiles: NDArray) -> NDArray[np.float64]:

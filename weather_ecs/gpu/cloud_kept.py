@@ -12,6 +12,7 @@ KEPT_DTYPE = np.dtype(
         ("quad", "f8", (3, 3)),  # middle from the cloud's position, half width, half height, m
         ("old_quad", "f8", (3, 3)),
         ("cuts", "f4", 4),  # of the picture's corners, as PictureBounds has them
+        ("old_cuts", "f4", 4),
         ("way", "f8", 3),  # from the camera to the cloud, when it was taken
         ("version", "i8"),  # of the shape's absorption
         ("shape", "i8"),  # the shape's key
