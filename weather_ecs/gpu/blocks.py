@@ -164,6 +164,7 @@ class BlockBuffer:
         self.data: NDArray[Any] = self._bytes.view(block.dtype).reshape(())
         self.views = {field.name: self._view(field) for field in block.fields}
         self._buffer: moderngl.Buffer | None = ctx.buffer(reserve=block.size, dynamic=True)
+        self.holds: object = None  # what it was filled from, for whoever fills it to compare with
 
     def _view(self, field: Field) -> NDArray[Any]:
         _, components, _ = TYPES[field.type]

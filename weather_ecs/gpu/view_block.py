@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.frame import SkyLight, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
-from weather_ecs.gpu.flash import HAZE, VEIL, flash_of
+from weather_ecs.gpu.flash import HAZE, VEIL, Flash, flash_of
 from weather_ecs.gpu.rain_blocks import MAX_LIGHTS
 
 ENCODED = 1.0 / 2.2
@@ -57,7 +57,7 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     p = view.projection
     block["view_projection"] = p @ view.view
     pixels = 0.5 * height * float(p[1, 1])
-    look, sky = view.frame.look, view.frame.sky
+    look = view.frame.look
     data["camera_position"] = (*view.position, pixels)
     speed = math.hypot(*view.velocity)
     slow = min(look.fastest / speed, 1.0) if speed > 0.0 else 1.0
@@ -68,14 +68,23 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     data["view_origin"] = (x, y, 0.0, 0.0)
     data["view_depth"] = (float(p[2, 2]), float(p[2, 3]), 0.0, 0.0)
     data["view_time"] = (view.frame.time, view.dt, 0.0, 0.0)
+    flash = flash_of(view.frame, view.position)
+    # Light stays the same for many frames, but for lightning.
+    light = (view.frame.sky, view.frame.fog, look.brightness) if flash is None else None
+    if light is None or light != block.holds:
+        block.holds = light
+        _fill_light(block, view, flash)
+    _fill_lamps(block, view)
+
+
+def _fill_light(block: BlockBuffer, view: ViewData, flash: Flash | None) -> None:
+    data, look, sky, fog = block.data, view.frame.look, view.frame.sky, view.frame.fog
     data["sun_direction"] = (*sky.sun_direction, 0.0)
     data["sun_color"] = (*sky.sun_color, 0.0)
-    flash = flash_of(view.frame, view.position)
     data["flash_color"] = 0.0
     drop, veil = _lights(sky)
     data["drop_color"][:3] = look.brightness * drop
     data["veil_color"][:3] = veil
-    fog = view.frame.fog
     color = fog.color
     if flash is not None:
         way = flash.place - np.array(view.position)
@@ -85,10 +94,9 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
         color = (HAZE * flash.here + color).tolist()
     data["fog_color"] = (*color, fog.extinction * LOG2_E)
     data["fog_shown"] = (*[max(value, 0.0) ** ENCODED for value in color], fog.depth)
-    _fill_lights(block, view)
 
 
-def _fill_lights(block: BlockBuffer, view: ViewData) -> None:
+def _fill_lamps(block: BlockBuffer, view: ViewData) -> None:
     """The lights nearest to the camera; a light's reach is how far off it still counts."""
     lights = view.frame.lights
     count = len(lights)
