@@ -27,6 +27,30 @@ from weather_ecs.quality import QUALITIES
 NAMES = st.from_regex(r"[A-Za-z][A-Za-z0-9_ -]{0,12}", fullmatch=True)
 IMAGES = st.lists(st.sampled_from(["puff", "wisp", "sheet", "puff_1"]), min_size=1, max_size=3)
 
+# What is put into the text of a good file to see what becomes of it.
+SNIPPETS = [
+    *("[", "]", "[[", "]]", "{", "}", "=", '"', "'", '"""', "'''", ".", ",", "\n", "#", "-", "0"),
+    *("nan", "inf", "-inf", "true", "1e9999", "0x1F", "1_0", "1979-05-27T07:32:00Z", "\r"),
+    *("[[models]]\n", "[models]\n", "[climate]\n", "[[winds]]\n", "[fog]\n", "[[rain_areas]]\n"),
+    *("[layers.climate]\n", "[[layers.skies]]\n", "[[models.seeds]]\n", "[[models.seeds.roots]]\n"),
+    *("x_a = 1\n", "[extra.a]\n", "extra = {}\n", "climate.duration = 5\n", "state = 1\n", "width"),
+    *("\\", "\0", "é", "💧", "\ufeff"),
+]  # fmt: skip
+
+
+def changed(text: str) -> st.SearchStrategy[str]:
+    """The text of a good file with up to four places in which something else stands."""
+
+    def edited(edits: list[tuple[int, int, str]]) -> str:
+        found = text
+        for place, cut, new in edits:
+            found = found[:place] + new + found[place + cut :]
+        return found
+
+    new = st.sampled_from(SNIPPETS) | st.text(max_size=4)
+    edit = st.tuples(st.integers(0, len(text)), st.integers(0, 12), new)
+    return st.lists(edit, min_size=1, max_size=4).map(edited)
+
 
 def floats(low: float, high: float, above: bool = False) -> st.SearchStrategy[float]:
     """Any floats within, the ends and the odd ones too."""

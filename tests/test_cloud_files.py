@@ -13,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from tests.file_values import changed
 from weather_ecs import (
     CloudFile,
     WeatherFileError,
@@ -298,29 +299,9 @@ def test_what_could_not_be_read_back_is_not_written(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-SNIPPETS = [
-    *("[", "]", "[[", "{", "}", "=", '"', "'", '"""', ".", ",", "\n", "#", "-", "0", "1e9999"),
-    *("nan", "inf", "-inf", "true", "[[models]]\n", "[models]\n", "[climate]\n", "\\", "\x00", "é"),
-    *("1_0", "0x1F", "1979-05-27T07:32:00Z", "\r", "\ufeff", "width", "state = 1\n"),
-    *("[[layers.skies]]\n", "[[models.seeds.roots]]\n"),
-]  # fmt: skip
-EDITS = st.lists(
-    st.tuples(
-        st.integers(0, len(GOOD)),
-        st.integers(0, 12),
-        st.sampled_from(SNIPPETS) | st.text(max_size=4),
-    ),
-    min_size=1,
-    max_size=4,
-)
-
-
 @settings(QUICK, max_examples=250)
-@given(EDITS)
-def test_changed_files_are_good_or_refused(tmp_path, edits):
-    text = GOOD
-    for place, cut, new in edits:
-        text = text[:place] + new + text[place + cut :]
+@given(changed(GOOD))
+def test_changed_files_are_good_or_refused(tmp_path, text):
     data = text.encode("utf-8", "surrogatepass")
     try:
         got = load(tmp_path, data)
