@@ -97,7 +97,7 @@ def test_rains_leave_a_tours_scenery_and_airs_change_it(
     for preset in ("clear", "heavy", "cloudburst", "fog", "heavy_snow"):
         game = Game(ctx, Settings(quality="low"), place=place, tour=look, preset=preset)
         game.update(1 / 30)
-        made = game._environment()
+        made = game.surroundings.environment(game)
         env[preset] = (made.fog_density, made.fog_overhead, made.overcast, made.zenith_color)
         here = game.weather.sample((0.0, 0.0, -70.0))
         assert here.temperature == pytest.approx(PRESETS[preset].temperature, abs=0.1)
@@ -117,7 +117,7 @@ def test_visibility_glides_and_the_scene_keeps_to_the_weathers_air(
     before, lost = game.weather.sample(game.pose.eye), []
     for _ in range(270):
         game.update(1 / 60)
-        lost.append(game._environment().fog_density)
+        lost.append(game.surroundings.environment(game).fog_density)
     after = game.weather.sample(game.pose.eye)
     game.close()
     assert before.visibility == pytest.approx(CLEAREST)
@@ -134,7 +134,7 @@ def test_fog_takes_the_sun_and_lights_from_all_round(ctx: moderngl.Context, plac
         game = Game(ctx, Settings(quality="low"), place=place, preset=preset)
         game.update(0.0)
         lights[preset] = game.light
-        env = game._environment()
+        env = game.surroundings.environment(game)
         assert env.sun_color == game.weather.light.sun_color
         assert env.horizon_color == game.weather.light.horizon_color
         assert env.fog_color == pytest.approx(fog_color(game.weather.light))

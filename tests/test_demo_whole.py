@@ -72,9 +72,9 @@ def test_the_games_own_weather_stands_aside(context: object, place: Place) -> No
             game.update(0.1)
         assert game.state.startswith("EHAM")
         assert game.report is not None
-        assert game._entities.area.rain_rate == 0.0
-        assert game._entities._wind.speed == 0.0
-        assert not any(layer.skies[-1].count for layer in game._scape.layers)
+        assert game.entities.area.rain_rate == 0.0
+        assert game.entities._wind.speed == 0.0
+        assert not any(layer.skies[-1].count for layer in game.scape.layers)
         here = game.weather.sample((0.0, 10.0, 0.0))
         assert here.temperature == pytest.approx(17.0, abs=0.2)
         assert here.rain_rate == 0.0
@@ -85,9 +85,9 @@ def test_the_games_own_weather_stands_aside(context: object, place: Place) -> No
         for _ in range(80):
             game.update(0.1)
         assert game.state == "heavy"
-        assert game._entities.area.rain_rate > 10.0
-        assert game._entities._wind.speed > 1.0
-        assert any(layer.skies[-1].count for layer in game._scape.layers)
+        assert game.entities.area.rain_rate > 10.0
+        assert game.entities._wind.speed > 1.0
+        assert any(layer.skies[-1].count for layer in game.scape.layers)
         now = game.weather.whole
         assert now is not None
         assert now.conditions.rain_rate == 0.0
@@ -141,7 +141,7 @@ def test_a_called_strike_lights_the_scene_and_is_heard(context: object, place: P
             game.update(0.02)
         game.draw(target)
         dark = np.frombuffer(target.read(components=3), "u1").astype("f4").mean()
-        assert game._environment().air is None
+        assert game.surroundings.environment(game).air is None
         game.strike()
         bright = 0.0
         for _ in range(8):
@@ -149,12 +149,12 @@ def test_a_called_strike_lights_the_scene_and_is_heard(context: object, place: P
             game.draw(target)
             now = np.frombuffer(target.read(components=3), "u1").astype("f4").mean()
             bright = max(bright, now)
-        assert game._environment().air is not None
+        assert game.surroundings.environment(game).air is not None
         assert bright > dark * 1.1
         for _ in range(40):
             game.update(0.1)
         game.draw(target)
-        assert game._environment().air is None
+        assert game.surroundings.environment(game).air is None
         assert len(heard) == 1
         assert 600.0 < heard[0] < 1500.0
         assert context.error == "GL_NO_ERROR"
