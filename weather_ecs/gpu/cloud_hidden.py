@@ -1,7 +1,7 @@
-"""How high in the picture rain hides the clouds: what is below needs no drawing.
+"""How high in the picture rain hides clouds and sky: what is below needs no drawing.
 
-Veils are drawn over the clouds. Where so much rain is before the lowest of these that no pixel
-could tell them from what is behind, they only cost.
+Veils are drawn over them. Where there is so much rain before the lowest clouds that no pixel could
+tell them from what is behind, they only cost.
 """
 
 from __future__ import annotations
@@ -60,10 +60,12 @@ def opaque_below(view: ViewData, height: float = math.inf) -> float:
 class Window:
     """The part of the picture above a height, -1 to 1; while it is on, all that is drawn."""
 
-    def __init__(self, gl: GL) -> None:
+    def __init__(
+        self, gl: GL, low: float = -1.0, viewport: tuple[int, int, int, int] = (0, 0, 0, 0)
+    ) -> None:
         self._gl = gl
-        self.low = -1.0
-        self.viewport = (0, 0, 0, 0)
+        self.low = low
+        self.viewport = viewport
 
     def on(self) -> None:
         """From now on."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from weather_ecs.frame import FrameData, ViewData
 from weather_ecs.gpu.bolt_pass import NO_RAIN, BoltPass, Rain
+from weather_ecs.gpu.cloud_hidden import Window, opaque_below
 from weather_ecs.gpu.cloud_pass import Between, CloudPass
 from weather_ecs.gpu.collision_maps import CollisionMaps
 from weather_ecs.gpu.depth import DepthCopy
@@ -139,7 +140,10 @@ class Layers:
             self._guard.bind_framebuffer()
         if self._sky.draws(view) and self._depth.available(self._guard):
             self._gl.glDepthMask(0)
+            window = Window(self._gl, opaque_below(view), self._guard.viewport)
+            window.on()
             self._sky.draw(view, height)
+            window.off()
 
     def _draw_bow(self, view: ViewData) -> None:
         if self._sky is not None and self._sky.draws(view) and self._sky.has_bow:
