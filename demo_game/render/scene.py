@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from demo_game.place import Place, paint
 
-from . import geometry
+from . import geometry, sunlight
 from .environment import Air, Environment, Ripples
 from .flag import Flag
 from .frame_block import FrameBlock, as_matrix, unit
@@ -30,7 +30,6 @@ SHADOW_UNIT, DETAIL_UNIT, MEADOW_UNIT, SKY_UNIT, LEAF_UNIT = range(5)
 WATER_UNIT = 6  # and the one after; 5 has the ripples
 CLOUD_UNIT = 8
 MOVING_SHADOWS = 140.0  # m from the camera
-SUN_STRENGTH = 2.6  # of the sun against its colour
 
 
 class SceneRenderer:
@@ -55,10 +54,11 @@ class SceneRenderer:
         self._detail = ctx.texture((table.shape[1], table.shape[0]), 4, table.tobytes())
         self._detail.build_mipmaps()
         self._detail.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
-        solid = (self._statics, self._actors, self._trees, self._meadow, self._flag, self._ground)
+        solid = (self._actors, self._trees, self._meadow, self._flag, self._ground)
         self._looks = [look for part in (*solid, self._water) for look in part.looks]
         self._prepared: set[moderngl.Program] = set()
         self._defines: tuple[str, ...] | None = None
+        self._casting: list[tuple[NDArray, float]] = []  # what moves and throws its shadow
         self._flashes = False
         self._make_sized()
         self._released = False
@@ -102,12 +102,13 @@ class SceneRenderer:
         outside = geometry.frustum_planes(p @ v, frame)
         sun = unit(environment.sun_direction)
         self.ctx.wireframe = False
+        self._statics.soft = sunlight.is_dull(environment)
         lit = self._choose(environment.defines)
         self._actors.pose(time, environment.actor_snow)
-        self._update_shadows(sun, camera)
+        self._update_shadows(sun, camera, environment)
         self._block.fill(time, environment, self._shadows.lookup)
         self._block.upload()
-        full = tuple(SUN_STRENGTH * c for c in environment.sun_color)
+        full = tuple(sunlight.SUN_STRENGTH * c for c in environment.sun_color)
         for program in lit:
             set_uniforms(program, sun_full=full)
         if environment.water is not None:
@@ -139,14 +140,16 @@ class SceneRenderer:
 
     def _choose(self, defines: tuple[str, ...]) -> list[moderngl.Program]:
         """The programs of what is lit, as the weather is now."""
-        if defines != self._defines:
-            self._defines, self._flashes = defines, True  # those chosen may still have its block
-        for look in self._looks:
+        looks = [*self._statics.looks, *self._looks]
+        chosen = (*defines, str(self._statics.soft))
+        if chosen != self._defines:
+            self._defines, self._flashes = chosen, True  # those chosen may still have its block
+        for look in looks:
             look.choose(defines)
             if look.program not in self._prepared:
                 self._prepared.add(look.program)
                 self._prepare(look.program)
-        return [look.program for look in self._looks]
+        return [look.program for look in looks]
 
     def _prepare(self, program: moderngl.Program) -> None:
         """Maps and blocks; until the weather's are there, anything of the right kind."""
@@ -186,7 +189,7 @@ class SceneRenderer:
         self._trees.draw(planes, camera, quality)
         ctx.enable(moderngl.CULL_FACE)
         sun = unit(environment.sun_direction)
-        self._ground.draw(planes, camera, environment, sun, self._actors.spheres)
+        self._ground.draw(planes, camera, environment, sun, self._casting)
         ctx.disable(moderngl.CULL_FACE)
 
     def _draw_blended(
@@ -203,14 +206,19 @@ class SceneRenderer:
         target.depth_mask = True
         self.ctx.enable_only(moderngl.NOTHING)
 
-    def _update_shadows(self, sun: NDArray, camera: NDArray) -> None:
+    def _update_shadows(self, sun: NDArray, camera: NDArray, environment: Environment) -> None:
         shadows = self._shadows
         if shadows.needs(sun):
             shadows.draw_still(sun, self._draw_still_shadows)
             self._ground_shadow.update(shadows.live, shadows.lookup)
-        near = [s for s in self._actors.spheres
-                if np.linalg.norm(s[0] - camera) < MOVING_SHADOWS]  # fmt: skip
-        shadows.draw_moving(near, self._actors.draw_shadow)
+        contrast = sunlight.contrast(environment)
+        self._casting = []
+        for center, radius in self._actors.spheres:
+            if np.linalg.norm(center - camera) < MOVING_SHADOWS:
+                left = sunlight.share(environment, float(center[0]), float(center[2]))
+                if contrast * left > sunlight.FAINT:
+                    self._casting.append((center, radius))
+        shadows.draw_moving(self._casting, self._actors.draw_shadow)
 
     def _draw_still_shadows(self, matrix: NDArray) -> None:
         self._statics.draw_shadow(matrix)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import moderngl
 import numpy as np
@@ -79,10 +80,16 @@ class Statics:
             block.attach(program)
             return program, [ctx.vertex_array(program, [whole], self._indices)]
 
-        self.looks = (Variants(look),)
+        self._kinds = Variants(look), Variants(partial(look, "SOFT"))
+        self.soft = False  # whether shadows are soft
         self._close = ctx.sampler(filter=(moderngl.LINEAR, moderngl.LINEAR))
         bare = (self._vertices, "3f4 16x1", "in_position")
         self._shadow_array = ctx.vertex_array(self.shadow, [bare], self._indices)
+
+    @property
+    def looks(self) -> tuple[Variants]:
+        """What it is drawn with now."""
+        return (self._kinds[self.soft],)
 
     def draw(self, planes: NDArray, outside: NDArray, camera: NDArray) -> None:
         """Draw what is seen, near to far; `outside`: planes of where more than the cabin is."""
@@ -113,7 +120,7 @@ class Statics:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all((*self.looks, self._shadow_array, self._vertices, self._indices))
+        release_all((*self._kinds, self._shadow_array, self._vertices, self._indices))
         release_all((self._close, self.shadow))
 
 
