@@ -19,10 +19,10 @@ from weather_ecs.gpu.cloud_seen import Seen
 from weather_ecs.gpu.cloud_sequence import BILLBOARDS, SOFT, Items
 from weather_ecs.gpu.cloud_store import CloudStore
 
-FACTORS = (4, 3, 2)  # pixels of the picture on a side of one of the canvas
+FACTORS = (5, 4, 3, 2)  # pixels of the picture on a side of one of the canvas
 SHARP = 2.2  # pixels of the picture that a texel may take before it counts as enlarged
 HEAVY = 0.8  # of the picture's pixels: a cloud that covers more, one over the other, is
-LENIENT = 1.7  # times as blurred as others
+LENIENT = 2.6  # times as blurred as others
 OPEN = 0.5  # of the picture, that the scene may be taken to leave free
 WORTH = 0.5  # of the pixels of a canvas that are seen, that it must save to be worth it
 MOST = 4  # canvases in a draw
