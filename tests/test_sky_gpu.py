@@ -17,6 +17,7 @@ from tests.views import look_from, perspective
 from weather_ecs import Weather, glsl
 from weather_ecs.components import Atmosphere, Fog, Observer, RainArea, RainContainer
 from weather_ecs.errors import ContextError, InvalidValueError
+from weather_ecs.gpu import sky_ring
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.sky_ring import thinned
@@ -216,6 +217,26 @@ def test_rings_have_as_many_angles_as_their_colours_ask_for() -> None:
         line = [np.interp(np.arange(len(table)), kept, table[kept][:, c]) for c in range(3)]
         assert np.abs(np.stack(line, 1) - table).max() <= 0.005
         assert len(kept) < len(table) / 4
+
+
+@pytest.mark.parametrize("halo", [0.0, 1.0])
+def test_what_of_a_ring_is_left_out_is_not_to_be_seen(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch, halo: float
+) -> None:
+    """Segments below the horizon, and those where no rain is."""
+    stage.air.time, stage.air.halo = "2025-06-21T18:00:00Z", halo
+    stage.air.rainbow = 1.0 - halo
+    if halo == 0.0:
+        bow(stage, 10.0)
+    x, _, z = stage.weather.light.sun_direction
+    heading = math.atan2(-z, x) + (0.0 if halo else math.pi)
+    drawn = stage.picture(heading, 0.2, 100.0)
+    monkeypatch.setattr(sky_ring, "LEVEL", -2.0)
+    monkeypatch.setattr(sky_ring, "FAINTEST", -1.0)
+    whole = stage.picture(heading, 0.2, 100.0)
+    assert np.abs(whole - drawn).max() <= 1.5 / 255.0
+    stage.air.halo = stage.air.rainbow = 0.0
+    assert np.abs(stage.picture(heading, 0.2, 100.0) - drawn).max() > 0.05  # there is a ring
 
 
 def test_no_rainbow_without_rain_or_under_a_high_sun(stage: Stage) -> None:
