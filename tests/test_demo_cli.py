@@ -123,7 +123,16 @@ def test_every_tour_runs(tour: str, capsys: pytest.CaptureFixture[str], tmp_path
 def test_a_film(tmp_path: Path) -> None:
     pytest.importorskip("imageio_ffmpeg")
     assert run_here(*SHORT, "--video", tmp_path / "films" / "walk.mp4") == 0
-    assert (tmp_path / "films" / "walk.mp4").stat().st_size > 500
+    film = tmp_path / "films" / "walk.mp4"
+    assert film.stat().st_size > 500
+    import imageio_ffmpeg
+
+    assert imageio_ffmpeg.count_frames_and_secs(str(film)) == (3, pytest.approx(0.1))  # of five
+
+
+@pytest.mark.parametrize("dt, step", [(1 / 60, 2), (1 / 30, 1), (0.1, 1), (1 / 240, 8)])
+def test_a_film_has_thirty_pictures_a_second_at_most(dt: float, step: int) -> None:
+    assert headless.film_step(dt) == step
 
 
 BAD = [
