@@ -130,7 +130,7 @@ def test_a_film(tmp_path: Path) -> None:
     assert imageio_ffmpeg.count_frames_and_secs(str(film)) == (3, pytest.approx(0.1))  # of five
 
 
-@pytest.mark.parametrize("dt, step", [(1 / 60, 2), (1 / 30, 1), (0.1, 1), (1 / 240, 8)])
+@pytest.mark.parametrize(("dt", "step"), [(1 / 60, 2), (1 / 30, 1), (0.1, 1), (1 / 240, 8)])
 def test_a_film_has_thirty_pictures_a_second_at_most(dt: float, step: int) -> None:
     assert headless.film_step(dt) == step
 
