@@ -67,6 +67,13 @@ class Stage:
         y = float(self._place.height(x, z)) + EYE
         self._standing.at = Pose((x, y, z), math.radians(yaw), math.radians(pitch))
 
+    def face(self, eye: Sequence[float], target: Sequence[float]) -> None:
+        """Be at a place and look at another, both (x, y, z) in m."""
+        dx, dy, dz = (b - a for a, b in zip(eye, target, strict=True))
+        pitch = math.atan2(dy, math.hypot(dx, dz))
+        at = float(eye[0]), float(eye[1]), float(eye[2])
+        self._standing.at = Pose(at, math.atan2(-dx, -dz), pitch)
+
     def settle(self, game: Game, lit: int = 90, drawn: int = 45) -> None:
         """Let every cloud be lit anew as the sun stands now, and its picture be made anew.
 
