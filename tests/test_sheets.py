@@ -7,10 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tools import metar_sheet, sky_sheets, stills
+from tools import collision_sheets, metar_sheet, sky_sheets, stills
 
 ROOT = Path(__file__).parent.parent
-KEPT = ("day", "halo", "metar", "rainbow", "storm", "strike")
+KEPT = (
+    "collisions", "day", "halo", "lee", "metar", "puddles", "rainbow", "splashes", "storm",
+    "strike",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -20,6 +23,8 @@ KEPT = ("day", "halo", "metar", "rainbow", "storm", "strike")
         (metar_sheet.main, ["out.jpg"]),
         (sky_sheets.main, ["out.jpg"]),
         (sky_sheets.main, ["out.jpg", "dawn"]),
+        (collision_sheets.main, ["out.jpg"]),
+        (collision_sheets.main, ["out.jpg", "hail"]),
     ],
 )
 def test_what_is_missing_is_said(
