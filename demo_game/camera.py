@@ -37,13 +37,18 @@ def yaw_pitch(direction: NDArray[np.float64]) -> tuple[float, float]:
 
 def view_matrix(pose: Pose) -> NDArray[np.float64]:
     """World to eye."""
-    forward = look_direction(pose.yaw, pose.pitch)
-    right = np.array((math.cos(pose.yaw), 0.0, -math.sin(pose.yaw)))
-    up = np.cross(right, forward)
+    fx, fy, fz = look_direction(pose.yaw, pose.pitch).tolist()
+    rx, rz = math.cos(pose.yaw), -math.sin(pose.yaw)  # to the right, level
+    ux, uy, uz = -rz * fy, rz * fx - rx * fz, rx * fy
     c, s = math.cos(pose.roll), math.sin(pose.roll)
-    right, up = c * right + s * up, c * up - s * right
-    view = np.eye(4)
-    view[0, :3], view[1, :3], view[2, :3] = right, up, -forward
+    view = np.array(
+        (
+            (c * rx + s * ux, s * uy, c * rz + s * uz, 0.0),
+            (c * ux - s * rx, c * uy, c * uz - s * rz, 0.0),
+            (-fx, -fy, -fz, 0.0),
+            (0.0, 0.0, 0.0, 1.0),
+        )
+    )
     view[:3, 3] = -view[:3, :3] @ np.asarray(pose.eye, np.float64)
     return view
 

@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 
 from weather_ecs.frame import AtmosphereData, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+from weather_ecs.gpu.flash import HAZE, flash_of
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.sky_ring import SkyRings, sun_light
 from weather_ecs.gpu.weather_sky import WeatherSky
 from weather_ecs.physics.optics import CLEAR
 from weather_ecs.physics.stars import stars
+from weather_ecs.physics.vectors import cross
 
 SKY_VIEW = UniformBlock(
     "SkyView",
@@ -26,6 +28,7 @@ SKY_VIEW = UniformBlock(
     ("sky_fog", "vec4"),  # rgb; m of it overhead
     ("sky_law", "vec4"),  # its extinction, 1/m, 0 where another pass draws it; scale of points;
     # where the horizon is, in clip space
+    ("sky_flash", "vec4"),  # rgb: what deep air shows of lightning; optical depth of that overhead
 )
 GRID = ProgramKey(vertex="sky.vert", fragment="sky.frag")
 SUN = ProgramKey(vertex="sky_disc.vert", fragment="sky_disc.frag")
@@ -35,6 +38,7 @@ COLUMNS, ROWS = 30, 28  # cells of the grid; each costs as much as 100 pixels
 SUN_RADIUS, MOON_RADIUS = math.radians(0.2666), math.radians(0.259)
 GLARE = 20.0  # radii of the sun
 MAP_UNIT = 0
+AIR = 0.12  # optical depth overhead of the air that a flash lights, haze and all
 
 
 class SkyPass:
@@ -139,7 +143,10 @@ class SkyPass:
         data["sky_frustum"] = (1.0 / p[0, 0], 1.0 / p[1, 1], p[0, 2], p[1, 2])
         for name, row in zip(("sky_right", "sky_up", "sky_back"), turn, strict=True):
             data[name] = (*row, 0.0)
-        data["sky_fog"] = (*fog.color, fog.depth)
+        flash = flash_of(view.frame, view.position)
+        lit = np.zeros(3) if flash is None else HAZE * flash.here
+        data["sky_flash"] = (*lit, AIR)
+        data["sky_fog"] = (*(lit + fog.color), fog.depth)
         thick = 0.0 if fog.draw else max(fog.extinction - CLEAR, 0.0)
         # Where the horizon is in the picture's middle, in clip space.
         up, back = float(turn[1, 1]), float(turn[2, 1])
@@ -161,10 +168,10 @@ class SkyPass:
 
 def _north_up(direction: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
     """(right, up) of somebody who looks along a direction with the celestial pole upwards."""
-    right = np.cross(direction, axes[:, 2])
+    right = cross(direction, axes[:, 2])
     long = float(np.linalg.norm(right))
     right = right / long if long > 1e-6 else np.array([1.0, 0.0, 0.0])
-    return right, np.cross(right, direction)
+    return right, cross(right, direction)
 
 
 def _grid() -> tuple[bytes, bytes]:

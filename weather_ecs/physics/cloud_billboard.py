@@ -8,6 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from weather_ecs.physics.vectors import cross
+
 Array = NDArray[np.float64]
 
 FADE = 0.3  # of the growth, over which one billboard comes or goes
@@ -69,7 +71,7 @@ def corners(
         flat[:, None], way[:, (0, 2)] / np.where(flat, level, 1.0)[:, None], (1.0, 0.0)
     )
     right = np.stack([-ahead[:, 1], np.zeros(len(at)), ahead[:, 0]], axis=1)
-    up = np.cross(right, way)
+    up = cross(right, way)
     height = np.hypot(size[:, 1] * level, size[:, 0] * way[:, 1])
     outline = np.asarray(outline, np.float64)
     cx, cy = outline[..., 0], outline[..., 1]

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from weather_ecs.physics.vectors import cross
+
 
 @dataclass(frozen=True, slots=True)
 class Frustum:
@@ -115,4 +117,4 @@ def picture_axes(way: NDArray) -> tuple[NDArray, NDArray]:
     """Unit axes, right and up, of a picture taken along `way`, (3,); level where it can be."""
     level = math.hypot(float(way[0]), float(way[2]))
     right = np.array([-way[2], 0.0, way[0]]) / level if level > 1e-6 else np.array([0.0, 0.0, 1.0])
-    return right, np.cross(right, way / np.linalg.norm(way))
+    return right, cross(right, way / np.linalg.norm(way))
