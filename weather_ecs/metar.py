@@ -25,7 +25,6 @@ FOOT = 0.3048
 KNOT, KMH = 0.514444, 1.0 / 3.6
 
 _TREND = ("NOSIG", "BECMG", "TEMPO", "FCST", "INTER")
-_CLEAR = ("NSC", "NCD", "SKC", "CLR", "CAVOK")
 _HEAD = re.compile(r"(?:(METAR|SPECI) )?(?:COR )?([A-Z][A-Z0-9]{3}) (\d{2})(\d{2})(\d{2})Z\b")
 _PRECISE = re.compile(r"T([01])(\d{3})([01])(\d{3})")
 _WIND = re.compile(r"(\d{3}|VRB|///)P?(\d{2,3}|//)(?:GP?(\d{2,3}|//))?(KT|MPS|KMH)")

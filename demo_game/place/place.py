@@ -64,7 +64,6 @@ class Place:
         self.seed = seed
         self.terrain = Terrain(seed)
         self.path = self.terrain.path  # (n, 2) from the start to the mailbox
-        self.path_to_door = self.terrain.spur  # (n, 2) from the path to the steps
         self.pond = Pond(layout.POND, layout.POND_RADII, self.terrain.pond_level)
         floor = self.terrain.cabin_level + cabin.FLOOR_ABOVE_GROUND
         self.cabin_origin = np.array([layout.CABIN[0], floor, layout.CABIN[1]])

@@ -42,7 +42,6 @@ DRY, WET = (190, 190, 180), (80, 150, 255)  # colours of its bars
 INTERVAL = 0.25  # s between two readings; figures that change faster cannot be read
 
 MESSAGE_TIME = 2.6  # s
-MESSAGE_FADE = 0.5  # s
 
 
 class Readout:

@@ -20,7 +20,6 @@ from weather_ecs.editor.pictures import film, write_png, written_whole
 from weather_ecs.editor.shared import Sunlight
 from weather_ecs.editor.studio import Studio
 
-MOST_PIXELS = 64_000_000  # of a sheet
 _ORIGIN = np.array([0.0, HEIGHT, 0.0])
 _LIGHT_COMES = 12  # frames in which the light of a new cloud comes in
 

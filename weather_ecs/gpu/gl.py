@@ -54,11 +54,8 @@ class GL:
     glGetIntegerv: Callable[[U, P], None]
     glGetFloatv: Callable[[U, P], None]
     glGetDoublev: Callable[[U, P], None]
-    glGetBooleanv: Callable[[U, P], None]
-    glGetInteger64v: Callable[[U, P], None]
     glGetIntegeri_v: Callable[[U, U, P], None]
     glGetInteger64i_v: Callable[[U, U, P], None]
-    glGetBooleani_v: Callable[[U, U, P], None]
     glIsEnabled: Callable[[U], B]
     glIsEnabledi: Callable[[U, U], B]
     glEnable: Callable[[U], None]
@@ -101,7 +98,6 @@ class GL:
     glGetProgramiv: Callable[[U, U, P], None]
     glGetShaderiv: Callable[[U, U, P], None]
     glGetUniformBlockIndex: Callable[[U, S], U]
-    glUniformBlockBinding: Callable[[U, U, U], None]
     glGetUniformIndices: Callable[[U, I, P, P], None]
     glGetActiveUniformsiv: Callable[[U, I, P, U, P], None]
     glGetActiveUniformBlockiv: Callable[[U, U, U, P], None]
@@ -112,9 +108,7 @@ class GL:
     glBindBufferRange: Callable[[U, U, U, Z, Z], None]
     glBindBuffersBase: Callable[[U, U, I, P], None] | None
     glBufferData: Callable[[U, Z, P, U], None]
-    glBufferSubData: Callable[[U, Z, Z, P], None]
     glGetBufferSubData: Callable[[U, Z, Z, P], None]
-    glCopyBufferSubData: Callable[[U, U, Z, Z, Z], None]
     glIsBuffer: Callable[[U], B]
     glBindTransformFeedback: Callable[[U, U], None] | None
     glShaderStorageBlockBinding: Callable[[U, U, U], None] | None
@@ -131,8 +125,6 @@ class GL:
     glTexImage2D: Callable[[U, I, I, I, I, I, U, U, P], None]
     glTexImage3D: Callable[[U, I, I, I, I, I, I, U, U, P], None]
     glCopyTexSubImage2D: Callable[[U, I, I, I, I, I, I, I], None]
-    glGetTexLevelParameteriv: Callable[[U, I, U, P], None]
-    glGetTexImage: Callable[[U, I, U, U, P], None]
     # framebuffers
     glBindFramebuffer: Callable[[U, U], None]
     glGenFramebuffers: Callable[[I, P], None]
@@ -142,16 +134,13 @@ class GL:
     glCheckFramebufferStatus: Callable[[U], U]
     glFramebufferTexture2D: Callable[[U, U, U, U, I], None]
     glGetFramebufferAttachmentParameteriv: Callable[[U, U, U, P], None]
-    glGetRenderbufferParameteriv: Callable[[U, U, P], None]
     glBindRenderbuffer: Callable[[U, U], None]
     glBlitFramebuffer: Callable[[I, I, I, I, I, I, I, I, U, U], None]
     glDrawBuffer: Callable[[U], None]
     glDrawBuffers: Callable[[I, P], None]
-    glReadBuffer: Callable[[U], None]
     glReadPixels: Callable[[I, I, I, I, U, U, P], None]
     # drawing, computing
     glDrawArrays: Callable[[U, I, I], None]
-    glDrawArraysInstanced: Callable[[U, I, I, I], None]
     glDrawArraysIndirect: Callable[[U, P], None] | None
     glDrawElementsIndirect: Callable[[U, U, P], None] | None
     glDispatchCompute: Callable[[U, U, U], None] | None

@@ -8,7 +8,6 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-RECORD_BYTES = 48  # place and time; normal and diameter; speed, weight, seed
 COUNT_BYTES = 16  # written and dropped, ever; the same when the frame began
 # After these: the work groups for what has sunk in a step, three words, and how much that is; then
 # the same at rest, to copy from. As in impact_counts.glsl.
