@@ -396,3 +396,19 @@ def test_a_sun_straight_above_and_straight_below(stage: Stage, latitude: float) 
         assert np.median(up) < 0.3  # but for stars
     for heading in (0.0, math.pi / 2.0):
         assert np.isfinite(stage.picture(heading, 0.2)).all()
+
+
+def test_lightning_lights_the_sky_and_most_of_all_above_the_horizon(stage: Stage) -> None:
+    stage.air.time = "2025-06-21T22:30:00Z"
+    stage.air.stars = 0.0
+    dark = stage.picture(math.pi / 2, 0.3)
+    stage.weather.strike((0.0, 0.0, 3000.0), origin=(0.0, 1000.0, 3000.0), current=60.0)
+    esper.process(0.05)
+    esper.process(0.04)
+    lit = stage.picture(math.pi / 2, 0.3)
+    up = stage.directions()[..., 1]
+    gain = (lit - dark).mean(axis=2)
+    assert gain[(up > 0.02) & (up < 0.08)].mean() > 0.02
+    assert gain[(up > 0.02) & (up < 0.08)].mean() > 1.5 * gain[up > 0.4].mean() > 0.0
+    esper.process(5.0)
+    assert np.abs(stage.picture(math.pi / 2, 0.3) - dark).max() < 3.0 / 255.0

@@ -24,6 +24,12 @@ vec3 sky_in_fog(vec3 light, vec3 direction)
     return mix(sky_fog.rgb, light, sky_left(direction));
 }
 
+// What lightning adds to the light of the air: more where one looks through more of it.
+vec3 sky_flashed(vec3 direction)
+{
+    return sky_flash.rgb * (1.0 - exp(-sky_flash.w / (max(direction.y, 0.0) + 0.05)));
+}
+
 // At the far plane: whatever the scene has drawn is in front.
 vec4 sky_position(vec3 direction)
 {
