@@ -179,6 +179,15 @@ def test_a_layer_with_no_room_for_a_model_of_its_file_is_refused(tmp_path):
         save_clouds(tmp_path / "narrow.toml", CloudFile((model,), layers=(layer,)))
 
 
+def test_a_layer_with_no_room_for_a_model_of_the_package_is_refused(tmp_path):
+    layer = SkyLayer(size=(9000.0, 4000.0), skies=(Sky(0.5, ("cumulonimbus",), count=3),))
+    with pytest.raises(WeatherFileError, match=r"layers\[0\]\.size.*cumulonimbus: 5400 by 16800 m"):
+        save_clouds(tmp_path / "narrow.toml", CloudFile((), layers=(layer,)))
+    # A model of the file takes the place of the package's of that name.
+    small = CloudModel("cumulonimbus", (CloudSeed(width=900.0),))
+    save_clouds(tmp_path / "own.toml", CloudFile((small,), layers=(layer,)))
+
+
 # A change of GOOD, the line and key that the error names, and words of what is allowed.
 BAD = [
     ("size_max = 200", "sise_max = 200", 5, "models[0].sise_max", "size_max"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 from weather_ecs.components import (
@@ -177,14 +178,22 @@ def _check_names(content: CloudFile, before: CloudFile | None) -> None:
 
 
 def _check_room(layer: SkyLayer, models: Sequence[CloudModel], path: Path) -> None:
-    """The file's own models are in its layers by their names, which say nothing of their size."""
+    """Models are in a file's layers by their names, which say nothing of their size."""
+    own = {model.name: model for model in models}
     names = {model for sky in layer.skies for model in sky.models if isinstance(model, str)}
-    for model in models:
-        if model.name in names:
-            try:
-                layer.check_holds(model)
-            except InvalidValueError as error:
-                raise PlacedError(path, error.value, error.allowed) from None
+    for name in sorted(names):
+        try:
+            layer.check_holds(own.get(name) or _packaged(name))
+        except InvalidValueError as error:
+            raise PlacedError(path, error.value, error.allowed) from None
+
+
+@cache
+def _packaged(name: str) -> CloudModel:
+    """A model of the package's, to be looked at only."""
+    from weather_ecs.cloud_presets import cloud_model  # which reads files, and so needs this module
+
+    return cloud_model(name)
 
 
 def _check_used(models: Sequence[CloudModel | str], usable: set[str], path: Path) -> None:
