@@ -52,8 +52,9 @@ class Stage:
         self._target = self._ctx.framebuffer([color], depth)
         self._standing = Standing()
 
-    def game(self, **options: Any) -> Game:
-        """A game that stands still."""
+    def game(self, play: Play | None = None, **options: Any) -> Game:
+        """A game that stands still, with a course of weather if there is to be one."""
+        self._standing.play = play
         return Game(
             self._ctx,
             Settings(quality=self.quality),
