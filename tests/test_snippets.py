@@ -1,4 +1,7 @@
-"""The examples of the pages in docs: each runs as it stands, given what its reader brings."""
+"""The examples of README and docs: each runs as it stands, given what its reader brings.
+
+The README's first one needs a window: `window_readme.py`.
+"""
 
 from __future__ import annotations
 
@@ -21,10 +24,14 @@ from weather_ecs.stats import Stats
 
 pytestmark = pytest.mark.usefixtures("world")
 
-DOCS = Path(__file__).parent.parent / "docs"
+ROOT = Path(__file__).parent.parent
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 VERTEX = "#version 330\nvoid main() { gl_Position = vec4(0.0); }\n"
 # What the shaders of a game do with each include, in the words of its page.
 FRAGMENT = {
+    "collisions.md": (
+        "out vec4 color;\nvoid main() { color = vec4(weather_rained_on(vec3(1.0))); }\n"
+    ),
     "fog.md": "out vec4 color;\nvoid main() { color = vec4(weather_fog_color.rgb, 1.0); }\n",
     "wetness.md": "out vec4 color;\nvoid main() { color = vec4(weather_water(vec3(1.0))); }\n",
 }
@@ -32,9 +39,10 @@ FRAGMENT = {
 
 def snippets(language: str) -> list[Any]:
     found = []
-    for page in sorted(DOCS.glob("*.md")):
+    for page in PAGES:
         text = page.read_text(encoding="utf-8")
-        for match in re.finditer(rf"^```{language}\n(.*?)^```", text, re.M | re.S):
+        examples = list(re.finditer(rf"^```{language}\n(.*?)^```", text, re.M | re.S))
+        for match in examples[page.name == "README.md" :]:
             line = text.count("\n", 0, match.start()) + 2
             found.append(pytest.param(page, line, match[1], id=f"{page.name}:{line}"))
     return found
