@@ -23,6 +23,7 @@ FACTORS = (5, 4, 3, 2)  # pixels of the picture on a side of one of the canvas
 SHARP = 2.2  # pixels of the picture that a texel may take before it counts as enlarged
 HEAVY = 0.8  # of the picture's pixels: a cloud that covers more, one over the other, is
 LENIENT = 2.6  # times as blurred as others
+MINOR, CROWDED = 0.1, 1.3  # of a canvas' clouds, that covers so little of it: as much more blurred
 OPEN = 0.5  # of the picture, that the scene may be taken to leave free
 WORTH = 0.5  # of the pixels of a canvas that are seen, that it must save to be worth it
 MOST = 4  # canvases in a draw
@@ -79,7 +80,8 @@ def find_groups(
         inside = inside[:held]
         inside = inside[: int(np.max(np.flatnonzero(bills[inside]), initial=-1)) + 1]
         if len(inside):
-            least = enlarged[inside].min()
+            small = area[inside] < MINOR * area[inside].sum()
+            least = (enlarged[inside] * np.where(small, CROWDED, 1.0)).min()
             factor = next(each for each in FACTORS if each <= least)
             (left, bottom), (right, top) = low[inside].min(axis=0), high[inside].max(axis=0)
             shown = 0.25 * (right - left) * (top - bottom) * seen.whole

@@ -21,7 +21,8 @@ bool hidden(vec3 middle, vec3 x, vec3 y)
 {
     ivec2 size = textureSize(scene_depth, 0);
     for (int k = 0; k < LOOKS * LOOKS; ++k) {
-        vec2 at = (vec2(k % LOOKS, k / LOOKS) + 0.5) * (2.0 / float(LOOKS)) - 1.0;
+        // From above: where most see the sky, so that few are needed.
+        vec2 at = (vec2(k % LOOKS, LOOKS - 1 - k / LOOKS) + 0.5) * (2.0 / float(LOOKS)) - 1.0;
         vec4 clip = cloud_matrix * vec4(middle + x * at.x + y * at.y, 1.0);
         if (clip.w <= 0.0) return false;
         vec2 ndc = clip.xy / clip.w;
