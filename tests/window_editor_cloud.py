@@ -21,6 +21,7 @@ from weather_ecs.editor.files import Files
 from weather_ecs.editor.gallery import Gallery
 from weather_ecs.editor.recent import Recent
 from weather_ecs.editor.studio import studio_of
+from xdnd import DragSource, hear_selections
 
 SIZE = (1280, 720)
 
@@ -257,8 +258,10 @@ def case_trouble(folder: Path) -> None:
     assert document.content is kept
 
     # A bad file dropped on the window: what is wrong, and everything as it was.
-    window.dispatch_event("on_file_drop", 10, 10, [str(bad)])
-    hands.until(lambda: hands.shows("Close"), "what is wrong")
+    source = DragSource(bad)
+    source.drop(window._window, (640, 300), hands.frames)
+    hands.until(lambda: hear_selections(window) or hands.shows("Close"), "what is wrong")
+    source.close()
     assert "roundness" in window.session.trouble and "bad.toml" in window.session.trouble
     hands.click("Close")
     assert document.content is kept and document.path == good
