@@ -134,7 +134,7 @@ class SceneRenderer:
                 scissor(target, _pixels(frame, viewport))
             self._draw_open(outside, camera, environment)
             if environment.draws_sky:
-                self._sky.draw(v, p, sun)
+                self._sky.draw(v, p, sun, float(camera[1]))
             scissor(target, None)
         self._draw_blended(target, v, planes, camera, environment.ripples)
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .environment import Environment
 from .frame_block import FrameBlock
 from .programs import compile_program, release_all, scissor, set_matrix, set_uniforms
-from .sky_dome import dome, glare_frame
+from .sky_dome import dome, first_index, glare_frame
 
 SKY_UNIT = 12  # of the weather's map
 JUMP = 25.0  # m the camera moves in one map's time that calls for a fresh one at once
@@ -99,8 +99,11 @@ class Sky:
         self._bake_array.render()
         scissor(framebuffer, None)
 
-    def draw(self, view: NDArray, projection: NDArray, sun: NDArray) -> None:
-        """Fill what nothing has covered; depth test on, at the far end. sun: unit direction."""
+    def draw(self, view: NDArray, projection: NDArray, sun: NDArray, height: float) -> None:
+        """Fill what nothing has covered; depth test on, at the far end.
+
+        sun: unit direction. height: of the eye, m.
+        """
         turn = view.copy()
         turn[:3, 3] = 0.0
         to_clip = projection @ turn
@@ -109,7 +112,8 @@ class Sky:
         self.maps[1].use(1)
         for program in self.programs:
             set_uniforms(program, share=self._row / self.size, sky_before=0, sky_after=1)
-        self._far_array.render()
+        first = first_index(height)
+        self._far_array.render(vertices=self._far_array.vertices - first, first=first)
         near = glare_frame(to_clip, sun)
         if near is not None:
             set_matrix(self._show, "to_world", np.linalg.inv(to_clip))

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 SECTORS = 36
 # Degrees of elevation.
 RINGS = (-90.0, -6.0, -1.5, 0.0, 1.0, 2.2, 4.0, 6.5, 10.0, 15.0, 22.0, 32.0, 46.0, 65.0, 90.0)
+HIDDEN = 2  # of the lowest rings' bands, behind the ground
+HIDDEN_FROM = 40.0  # m, below which an eye sees only ground there, as far as the hills reach
 GLARE = 20.0  # degrees from the sun within which the sky is no ramp between a dome's corners
 
 
@@ -26,7 +28,7 @@ _RIM = _rim()
 
 
 def dome() -> tuple[NDArray, NDArray]:
-    """(n, 3) f4 unit directions, and (m, 3) u4 triangles."""
+    """(n, 3) f4 unit directions, and (m, 3) u4 triangles, from the lowest band up."""
     up = np.radians(RINGS)[:, None]
     around = np.linspace(0.0, 2.0 * np.pi, SECTORS + 1)[None]
     level = np.cos(up)
@@ -36,8 +38,13 @@ def dome() -> tuple[NDArray, NDArray]:
     i, j = np.meshgrid(np.arange(SECTORS), np.arange(len(RINGS) - 1))
     a = (j * (SECTORS + 1) + i).ravel()
     b = a + SECTORS + 1
-    triangles = np.concatenate([np.stack([a, a + 1, b], 1), np.stack([b, a + 1, b + 1], 1)])
+    triangles = np.stack([a, a + 1, b, b, a + 1, b + 1], 1).reshape(-1, 3)
     return directions.reshape(-1, 3).astype("f4"), triangles.astype("u4")
+
+
+def first_index(height: float) -> int:
+    """Where the indices begin of what an eye at a height, m, may see of the dome."""
+    return 6 * SECTORS * HIDDEN if height < HIDDEN_FROM else 0
 
 
 def glare_frame(to_clip: NDArray, sun: NDArray) -> tuple[float, float, float, float] | None:

@@ -18,6 +18,7 @@ from .programs import Look, Variants, compile_program, release_all, set_matrix
 from .quality import Quality
 
 SHAPES = 4 * VARIANTS
+SINGLE = 2  # the level whose leaves have no holes and two sides
 Content = tuple[list[tuple[Any, ...]], moderngl.Buffer]  # of a vertex array, and its indices
 INSTANCE_FORMAT = "4f4 4f4/i"
 
@@ -26,6 +27,7 @@ class Trees:
     """Every tree; each frame those seen are sorted by shape and level."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
+        self.ctx = ctx
         self.shadow = compile_program(ctx, "shadow.vert", "shadow.frag", "TREES")
         trees = place.trees
         self._shape = trees.shape
@@ -118,7 +120,12 @@ class Trees:
         bare, leafy = self.looks
         for _, slot, count in batches:  # what has no holes first: it hides the rest early
             if self._splits[slot][0]:
+                if slot % flora.LEVELS != SINGLE:
+                    self.ctx.enable(moderngl.CULL_FACE)
+                else:
+                    self.ctx.disable(moderngl.CULL_FACE)
                 bare.arrays[slot].render(vertices=self._splits[slot][0], instances=count)
+        self.ctx.disable(moderngl.CULL_FACE)
         for _, slot, count in batches:
             solid, whole = self._splits[slot]
             if whole > solid:
