@@ -10,7 +10,7 @@ import pytest
 from tools import post_row, precipitation_sheets
 
 ROOT = Path(__file__).parent.parent
-KEPT = ("fog-posts", "wind-gust")
+KEPT = ("fog-posts", "presets", "snowfall", "wind-gust")
 
 
 @pytest.mark.parametrize("arguments", [[], ["out.jpg"], ["out.jpg", "hail"]])

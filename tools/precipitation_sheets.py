@@ -26,11 +26,15 @@ SHOWN = (
     "drizzle", "light", "moderate", "heavy", "cloudburst",
     "sleet", "light_snow", "heavy_snow", "blizzard", "fog",
 )  # fmt: skip
+BEFORE = 15.0  # s of a preset before its picture
 GUST = 2.0, 9.0  # s: rises, and dies down until
 MOMENTS = (0.0, 1.0, 2.0, 4.0, 6.0, 9.5)  # s after it begins
 STRENGTH = 14.0  # m/s
 SNOWFALL = 60.0  # s of play, from before the snow to after it
-SHARES = (0.04, 0.14, 0.3, 0.5, 0.62, 0.95)
+SHARES = {
+    "before": 0.04, "it begins": 0.14, "it snows": 0.3, "after more of it": 0.5,
+    "before it eases": 0.62, "after it": 0.95,
+}  # fmt: skip
 LAST, NOW_AND_THEN = 8, 10  # frames that are drawn before a picture
 CABIN = (-0.5, 1.2, -46.5), (5.0, 1.3, -60.0)  # eye, and what it looks at
 
@@ -42,7 +46,7 @@ def presets(stage: Stage, out: Path) -> None:
         game = stage.game(preset=name)
         stage.face(*CABIN)
         stage.settle(game, 30, 12)
-        pictures.append(stage.still(game, seconds=40.0, frames=12))
+        pictures.append(_later(stage, game, BEFORE))
         game.close()
         it = PRESETS[name]
         texts.append(
@@ -100,15 +104,13 @@ def snow(stage: Stage, out: Path) -> None:
     """Snow before, while it falls and after, on roof, ground and figure; a time-lapse."""
     game = stage.game(preset="light_snow", play=SnowPlay(SNOWFALL))
     stage.face(*CABIN)
-    pictures, texts, time = [], [], 0.0
-    for share in SHARES:
+    pictures, time = [], 0.0
+    for share in SHARES.values():
         moment = share * SNOWFALL
         pictures.append(_later(stage, game, moment - time))
         time = moment
-        depth = game.weather.sample(game.pose.eye).snow_depth
-        texts.append(f"{100.0 * depth:.1f} cm on the ground")
     game.close()
-    save_sheet(out, pictures, texts, columns=2, width=480, quality=78)
+    save_sheet(out, pictures, list(SHARES), columns=2, width=480, quality=78)
 
 
 SHEETS = {"presets": presets, "gust": gust, "snow": snow}
