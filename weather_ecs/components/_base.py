@@ -56,6 +56,7 @@ class Component:
     __slots__ = ("__weakref__",)
 
     checks: ClassVar[dict[str, Check]] = {}
+    _changed: ClassVar[list[int]] = [0]  # of all classes: see `changes`
     _revision: ClassVar[list[int]] = [0]
     # Two threads that make components at once never come to the same number.
     _counts: ClassVar[Iterator[int]] = count(1)
@@ -63,7 +64,7 @@ class Component:
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         if Component in cls.__bases__:  # a game's subclass counts with the class it extends
-            cls._revision, cls._counts = [0], count(1)
+            cls._revision = [0]
 
     def __setattr__(self, name: str, value: Any) -> None:
         check = self.checks.get(name)
@@ -75,7 +76,7 @@ class Component:
             field = f"{type(self).__name__}.{name}"
             raise InvalidValueError(field, error.value, error.allowed) from None
         _set(self, name, value)
-        self._revision[0] = next(self._counts)
+        self._revision[0] = self._changed[0] = next(self._counts)
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"the fields of {type(self).__name__} cannot be deleted")
@@ -89,7 +90,12 @@ class Component:
 def set_unchecked(component: Component, name: str, value: Any) -> None:
     """Set a field whose value is known to be good (a system's own result)."""
     _set(component, name, value)
-    component._revision[0] = next(component._counts)
+    component._revision[0] = component._changed[0] = next(component._counts)
+
+
+def changes() -> int:
+    """Another number after every assignment to a component of any class."""
+    return Component._changed[0]
 
 
 def to_float(field: str, value: Any, allowed: str) -> float:

@@ -121,7 +121,7 @@ class Occluder(Component):
         else:
             raise AttributeError(f"Occluder has no field {name!r}")
         _set(self, name, value)
-        self._revision[0] = next(self._counts)
+        self._revision[0] = self._changed[0] = next(self._counts)
 
     def _checked_vertices(self, value: Any, complete: bool) -> NDArray[np.float32] | None:
         if value is None and not complete:
@@ -145,4 +145,4 @@ class Occluder(Component):
         checked_indices = _indices("Occluder.indices", indices, len(checked))
         _set(self, "vertices", checked)
         _set(self, "indices", checked_indices)
-        self._revision[0] = next(self._counts)
+        self._revision[0] = self._changed[0] = next(self._counts)

@@ -51,6 +51,7 @@ from weather_ecs.systems.air import air_data, fog_data
 from weather_ecs.systems.atmosphere import Daylight
 from weather_ecs.systems.cloud_list import NO_CLOUDS, CloudList
 from weather_ecs.systems.gauge import GaugeList
+from weather_ecs.systems.glance import Glance, look
 from weather_ecs.systems.lightning import settings_of
 from weather_ecs.systems.looks import (
     cloud_look,
@@ -61,7 +62,7 @@ from weather_ecs.systems.looks import (
     sun_light,
 )
 from weather_ecs.systems.occluders import OccluderList
-from weather_ecs.systems.queries import alive, leaving
+from weather_ecs.systems.queries import alive
 from weather_ecs.systems.rain_area import area_rows, drift_velocity, dry_spells
 from weather_ecs.systems.ripples import RippleList
 from weather_ecs.systems.state import WeatherState
@@ -123,6 +124,7 @@ class ExtractSystem:
         self._strikes, self._lightning, self._brightness = StrikeList(), LightningLook(), 0.0
         self._time = -1.0
         self._seen: tuple[Any, ...] = ()  # what the last frame was made of
+        self._glance = Glance()
 
     @property
     def gauges(self) -> dict[int, RainGauge]:
@@ -137,29 +139,19 @@ class ExtractSystem:
     def run(self, state: WeatherState) -> None:
         """A new frame is due."""
         self._time, self._seen = -1.0, ()
+        self._glance.forget()
 
     def frame(self, state: WeatherState) -> FrameData:
         """The weather now; the same object as before where nothing has changed."""
-        seen = self._look(state)
-        if seen == self._seen and self._frame is not None:
+        if self._glance.same(state) and self._frame is not None:
             return self._frame
-        frame = self._extract(state, seen[0][: len(_KINDS)], seen[-1][: len(_KINDS)])
-        self._seen = seen
-        return frame
-
-    def _look(self, state: WeatherState) -> tuple[Any, ...]:
-        """All that can change between two looks in a frame; a game may take many."""
-        lists: list[Any] = [esper.get_component(kind) for kind in _ALL]
-        fronts, clock = state.fronts, state.clock
-        return (
-            [kind._revision[0] for kind in _ALL],
-            clock.steps,
-            clock.remainder,
-            leaving(entity for pairs in lists for entity, _ in pairs),
-            (fronts.number, fronts.revision, state.cloud_shapes.version),
-            (state.clouds, state.course, state.drawn),
-            lists,
-        )
+        seen = look(state, _ALL)
+        if seen != self._seen or self._frame is None:
+            self._extract(state, seen[0][: len(_KINDS)], seen[-1][: len(_KINDS)])
+            self._seen = seen
+        self._glance.keep()
+        assert self._frame is not None
+        return self._frame
 
     def _extract(
         self, state: WeatherState, revisions: list[int], lists: list[list[Any]]
