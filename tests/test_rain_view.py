@@ -363,7 +363,16 @@ def test_a_veil_says_how_deep_the_rain_is():
     assert veil.axis == pytest.approx((0.0, -150.0, math.cos(0.4), math.sin(0.4)))
     assert veil.shape == pytest.approx((80.0, 40.0, (1.0 - 10.0 / 40.0) ** 2))
     assert veil.span[0] < -200.0 and veil.span[1] == 350.0
-    assert veil.extinction == pytest.approx(LOOK.veil * float(extinction(25.0)))
+    assert veil.extinction == pytest.approx(LOOK.veil * float(extinction(25.0)), rel=0.01)
+
+
+def test_vast_rain_is_as_clear_as_its_law_says():
+    found = []
+    for radius in (40.0, 500.0, 20_000.0):
+        row = area(0, (0.0, -150.0), (2.0 * radius, radius), 25.0, 0.4, 10.0, 350.0)
+        (veil,) = veils(frame(row), camera((0.0, 30.0, 0.0), NORTH))
+        found.append(veil.extinction / float(extinction(25.0)))
+    assert found == pytest.approx([LOOK.veil, 0.5 * (1.0 + LOOK.veil), 1.0], rel=0.01)
 
 
 def test_soft_edges_of_a_veil_from_none_to_all():

@@ -25,6 +25,7 @@ _WITHIN = 0.6  # of its soft top, how far a far shaft reaches up into its cloud
 _SHEAR = 0.4  # of the wind: a cloud goes with most of it, and so does what it drops
 _SHADE_RATE = 4.0  # mm/h from which a shower has most of the shade of its cloud
 _RAIN_SPEED, _SNOW_SPEED = 6.0, 1.5  # m/s, of what shows the slant of a shaft
+_VAST = 500.0  # m, radius of an area of which half the look's factor is left
 _OVER = 500.0  # m over a cloud's base from which nothing is seen of its rain
 _BELOW = 300.0  # m under the container and the eye to which a veil hangs
 
@@ -65,12 +66,12 @@ def _veil(
         count = round(counts.get((key, fall.kind), 0.0))
         if fall.kind == SNOW:
             snow = fall.part
-            lost += fall.extinction * frame.flakes.veil
+            lost += fall.extinction * _look(frame.flakes.veil, b)
             if count and near:
                 far = snow_shown_distance(look, frame.flakes, fall, count)
                 shown += near * fall.part * far
         else:
-            lost += fall.extinction * look.veil
+            lost += fall.extinction * _look(look.veil, b)
             if count and near:
                 far = shown_distance(look, round(fall.rate, 1), count)
                 shown += near * fall.part * far
@@ -89,6 +90,15 @@ def _veil(
     hidden = min(max((eye - ceiling) / _OVER, 0.0), 1.0)
     veil = replace(veil, extinction=(1.0 - hidden) * veil.extinction)
     return _under_cloud(veil, frame, key, container.distance)
+
+
+def _look(factor: float, radius: float) -> float:
+    """What is left of the look's factor on the extinction of an area whose smaller radius is in m.
+
+    It makes up for what a screen shows less of, where a shower of a game's size would hardly be
+    seen. Rain that reaches for kilometres is seen, and its visibility is to be what was reported.
+    """
+    return factor - max(factor - 1.0, 0.0) * radius**2 / (radius**2 + _VAST**2)
 
 
 def _from_outside(
@@ -112,8 +122,9 @@ def _under_cloud(veil: VeilData, frame: FrameData, key: int, distance: float) ->
     distance: m, to its rim.
     """
     far = min(max(distance / _FAR, 0.0), 1.0)
-    # The look's factor stands for what a screen shows less of; a whole shaft needs none.
+    # A whole shaft needs nothing of the look's factor.
     look = (1.0 - veil.snow) * frame.look.veil + veil.snow * frame.flakes.veil
+    look = _look(look, veil.shape[1])
     (a, b, inner), (bottom, ceiling) = veil.shape, veil.span
     top = _SOFT_TOP * max(ceiling, 0.0)
     return replace(
