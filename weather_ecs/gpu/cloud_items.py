@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.frame import ViewData
 from weather_ecs.gpu.cloud_scene import CloudScene
-from weather_ecs.gpu.cloud_sequence import FADING, LIT, PICTURE, Items
+from weather_ecs.gpu.cloud_sequence import FADING, LIT, LIT_FADING, PICTURE, Items
 from weather_ecs.gpu.flash import lit_by_flashes
 
 SOFT_HEIGHT = 400.0  # m over the ground, below which billboards are soft where they meet the scene
@@ -31,7 +31,8 @@ def picture_kinds(
     kinds = np.where(quads[:, 1, 3] < 1.0, FADING, PICTURE)
     if not view.frame.cloud_look.plain:
         lit = lit_by_flashes(view, scene.center[which], scene.reach[which])
-        kinds[lit | (quads[:, 2, 3] > 0.0)] = LIT
+        lit |= quads[:, 2, 3] > 0.0
+        kinds[lit] = np.where(kinds[lit] == FADING, LIT_FADING, LIT)
     return kinds
 
 

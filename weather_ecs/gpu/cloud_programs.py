@@ -9,7 +9,16 @@ from weather_ecs.frame import ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.cloud_blocks import CLOUD_VIEW
 from weather_ecs.gpu.cloud_images import hulls, image_array
-from weather_ecs.gpu.cloud_sequence import BILLBOARDS, FADING, LIT, PICTURE, SOFT, Items, runs
+from weather_ecs.gpu.cloud_sequence import (
+    BILLBOARDS,
+    FADING,
+    LIT,
+    LIT_FADING,
+    PICTURE,
+    SOFT,
+    Items,
+    runs,
+)
 from weather_ecs.gpu.flash import cloud_lights
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics.cloud_images import CLOUD_IMAGES
@@ -31,7 +40,8 @@ KEYS = {
     SOFT: _billboards("SOFT"),
     PICTURE: _pictures(),
     FADING: _pictures("FADING"),
-    LIT: _pictures("FADING", "FLASHES"),
+    LIT: _pictures("FLASHES"),
+    LIT_FADING: _pictures("FADING", "FLASHES"),
 }
 # Units of the samplers; the same in all programs.
 UNITS = {

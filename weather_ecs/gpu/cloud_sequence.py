@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 # How an item is drawn. Billboards count in the stream, pictures in the rows of quads.
-BILLBOARDS, SOFT, PICTURE, FADING, LIT = range(5)
+BILLBOARDS, SOFT, PICTURE, FADING, LIT, LIT_FADING = range(6)
 
 
 class Between(NamedTuple):

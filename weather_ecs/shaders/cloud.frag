@@ -1,6 +1,4 @@
 // One billboard of a cloud; premultiplied, encoded.
-#include <block:CloudView>
-
 uniform sampler2DArray cloud_images;
 
 in vec3 vs_uv;
@@ -14,18 +12,19 @@ out vec4 color;
 
 #ifdef SOFT
 uniform sampler2D scene_depth;
-uniform vec4 cloud_scene_at;  // the scene's texel: scale and offset of the pixel
-uniform vec3 cloud_guard;  // depth by pixel's x, by y, at 0: what is nearer hides all of the clouds
+// Here and not in uniforms, which a software driver fetches anew for every few pixels.
+flat in vec4 vs_scene_at;  // place in the scene's depth: scale and offset of the pixel
+flat in vec4 vs_guard;  // as cloud_guard; 1/m, over the depth at which it fades
+flat in vec2 vs_depth;  // as cloud_depth
 
 // 0 to 1: how far the scene is behind, over the depth at which the billboard fades.
 float clearance()
 {
-    ivec2 texel = ivec2(gl_FragCoord.xy * cloud_scene_at.xy + cloud_scene_at.zw);
-    float depth = texelFetch(scene_depth, min(texel, textureSize(scene_depth, 0) - 1), 0).r;
-    if (depth >= 1.0 || depth < dot(vec3(gl_FragCoord.xy, 1.0), cloud_guard)) return 1.0;
-    float scene = cloud_depth.y / (depth * 2.0 - 1.0 + cloud_depth.x);
-    float own = cloud_depth.y / (gl_FragCoord.z * 2.0 - 1.0 + cloud_depth.x);
-    return clamp((scene - own) / max(vs_fade.z * cloud_softness, 1e-3), 0.0, 1.0);
+    float depth = texture(scene_depth, gl_FragCoord.xy * vs_scene_at.xy + vs_scene_at.zw).r;
+    if (depth >= 1.0 || depth < dot(vec3(gl_FragCoord.xy, 1.0), vs_guard.xyz)) return 1.0;
+    float scene = vs_depth.y / (depth * 2.0 - 1.0 + vs_depth.x);
+    float own = vs_depth.y / (gl_FragCoord.z * 2.0 - 1.0 + vs_depth.x);
+    return clamp((scene - own) * vs_guard.w, 0.0, 1.0);
 }
 #endif
 

@@ -11,6 +11,8 @@ uniform float cloud_hazed;  // 1; 0 while an impostor is made
 
 #ifdef SOFT
 uniform sampler2D scene_depth;
+uniform vec4 cloud_scene_at;  // the scene's texel: scale and offset of the pixel
+uniform vec3 cloud_guard;  // depth by pixel's x, by y, at 0: what is nearer hides all of the clouds
 uniform vec3 cloud_guard_at;  // depth by x, by y, in the middle of the picture, all -1 to 1
 
 const int LOOKS = 6;
@@ -43,6 +45,11 @@ out vec3 vs_rim;
 out vec3 vs_relief;  // the sun in the image's axes times its relief; softness of the outline
 out vec4 vs_fade;  // opacity, height over the base, depth over which it fades, facing
 flat out vec4 vs_haze;
+#ifdef SOFT
+flat out vec4 vs_scene_at;
+flat out vec4 vs_guard;
+flat out vec2 vs_depth;
+#endif
 
 void main()
 {
@@ -119,6 +126,9 @@ void main()
     gl_Position.z = min(gl_Position.z, 0.999999 * gl_Position.w);
     bool unseen = vs_fade.x < 0.002;
 #ifdef SOFT
+    vs_scene_at = cloud_scene_at / vec2(textureSize(scene_depth, 0)).xyxy;
+    vs_guard = vec4(cloud_guard, 1.0 / max(vs_fade.z * cloud_softness, 1e-3));
+    vs_depth = cloud_depth.xy;
     unseen = unseen || hidden(at, right * (0.5 * size.x), up * (0.5 * height));
 #endif
     if (unseen) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);

@@ -2,7 +2,7 @@
 // encoded. FLASHES: in the light of lightning. These are programs apart: where the CPU draws, what
 // is not needed costs as much as what is.
 #ifdef FLASHES
-#include "cloud_flash.glsl"
+#include "cloud_share.glsl"
 #endif
 uniform sampler2D cloud_atlas;
 
@@ -14,8 +14,10 @@ in vec2 vs_before;
 flat in vec4 vs_frame;
 #endif
 #ifdef FLASHES
-flat in float vs_flash;
 in vec3 vs_from;
+flat in vec4 vs_flash_at;
+flat in vec3 vs_flash_color;
+in vec3 vs_others;
 #endif
 out vec4 color;
 
@@ -30,9 +32,9 @@ void main()
 #ifdef FLASHES
     // What the picture shows darker is darker in this light too.
     vec3 shown = min(texel.rgb / max(texel.a, 0.004), vec3(1.0));
-    vec3 flash = own_flash(vs_flash, vec3(0.7)) + near_flash(vs_from);
-    flash *= 0.45 + 1.1 * shown.g;
-    texel.rgb = pow(pow(shown, vec3(2.2)) + flash, vec3(1.0 / 2.2)) * texel.a;
+    vec3 flash = vs_flash_color * flash_share(vs_flash_at, vs_from) + vs_others;
+    // A root for the display's curve: exact where there is no flash.
+    texel.rgb = sqrt(shown * shown + flash * (0.45 + 1.1 * shown.g)) * texel.a;
 #endif
     color = vec4(texel.rgb * (1.0 - vs_haze.w) + vs_haze.rgb * texel.a, texel.a) * vs_share.x;
 }

@@ -12,8 +12,12 @@ out vec2 vs_before;  // place in the older picture
 flat out vec4 vs_frame;  // the older picture's frame
 #endif
 #ifdef FLASHES
-flat out float vs_flash;
+#include "cloud_flash.glsl"
 out vec3 vs_from;  // place from the camera, m
+// Of the flash that counts most here: a pixel works it out for itself. Of others the corners tell.
+flat out vec4 vs_flash_at;
+flat out vec3 vs_flash_color;
+out vec3 vs_others;
 #endif
 
 void main()
@@ -35,7 +39,10 @@ void main()
     vec3 p = a.xyz + b.xyz * corner.x + c.xyz * corner.y;
 #ifdef FLASHES
     vs_from = p;
-    vs_flash = c.w;
+    int most = brightest_flash(a.xyz);
+    vs_flash_at = most < 0 ? vec4(0.0, 0.0, 0.0, 1.0) : cloud_flash_at[most];
+    vs_flash_color = most < 0 ? vec3(0.0) : cloud_flash_color[most].rgb;
+    vs_others = flashes_but(most, p) + own_flash(c.w, vec3(0.7));
 #endif
     vs_uv = uv.xy + uv.zw * (corner * 0.5 + 0.5);
 #ifdef FADING
