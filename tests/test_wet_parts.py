@@ -117,9 +117,9 @@ def test_a_tile_at_rest_dries_by_the_law_and_is_there_to_a_percent():
     for seconds in (0.0, 40.0, 200.0):
         resting.pass_time(seconds, 10)
         left = 0.6 * FILM * math.exp(-resting.now / DRYING)
-        assert resting.cell((3, -2), 5, 6) == pytest.approx(left, rel=0.51 * FINENESS)
+        assert resting.tile((3, -2))[6, 5] == pytest.approx(left, rel=0.51 * FINENESS)
         assert resting.water() == pytest.approx(left, rel=0.51 * FINENESS)
-    assert resting.cell((0, 0), 5, 6) == 0.0
+    assert resting.tile((0, 0))[6, 5] == 0.0
     taken = resting.take((3, -2))
     assert taken is not None and resting.take((3, -2)) is None and not resting.tiles
     assert taken[0, 0] == pytest.approx(0.6 * FILM * math.exp(-240.0 / DRYING), rel=0.02)
@@ -149,7 +149,7 @@ def test_tiles_at_rest_come_back_out_of_their_state(places, seed, age):
     again = Resting.from_state(state, 100)
     assert again.state() == state and sorted(again.tiles) == sorted(resting.tiles)
     for place in resting.tiles:
-        assert again.cell(place, 1, 2) == pytest.approx(resting.cell(place, 1, 2), rel=1e-12)
+        assert again.tile(place)[2, 1] == pytest.approx(resting.tile(place)[2, 1], rel=1e-12)
 
 
 # What compresses

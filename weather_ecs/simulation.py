@@ -66,6 +66,11 @@ class Simulation:
 
     def sample(self, position: Any) -> Sample:
         """The weather at a point (x, y, z) in metres. Raises InvalidValueError for no point."""
+        if type(position) is tuple and len(position) == 3:  # as most are
+            x, y, z = position
+            plain = type(x) is type(y) is type(z) is float
+            if plain and -FAR <= x <= FAR and -FAR <= y <= FAR and -FAR <= z <= FAR:
+                return self._sample_field().at(x, y, z)
         x, y, z = check_position("position", position)
         return self._sample_field().at(x, y, z)
 
@@ -201,7 +206,8 @@ class Simulation:
             return self._extract.frame(self._state)
 
     def _sample_field(self) -> SampleField:
-        self._check_open()
+        if self._closed:
+            self._check_open()
         frame = self._frame()
         if self._field is None or frame is not self._field_frame:
             wind = landing_wind(frame.wind, frame.profile)
@@ -210,7 +216,8 @@ class Simulation:
             slope = self._slope.follow(wanted)
             self._shelter.update(frame.occluders, slope, frame.time)
             state = self._state
-            self._field = SampleField(frame, self._shelter, state.wet_ground, state.snow_ground)
+            grounds = state.wet_ground, state.snow_ground
+            self._field = SampleField(frame, self._shelter, *grounds, before=self._field)
             self._field_frame = frame
         return self._field
 

@@ -56,7 +56,7 @@ class Component:
     __slots__ = ("__weakref__",)
 
     checks: ClassVar[dict[str, Check]] = {}
-    _changed: ClassVar[list[int]] = [0]  # of all classes: see `changes`
+    _changed: ClassVar[list[int]] = [0]  # another number after an assignment to any component
     _revision: ClassVar[list[int]] = [0]
     # Two threads that make components at once never come to the same number.
     _counts: ClassVar[Iterator[int]] = count(1)
@@ -91,11 +91,6 @@ def set_unchecked(component: Component, name: str, value: Any) -> None:
     """Set a field whose value is known to be good (a system's own result)."""
     _set(component, name, value)
     component._revision[0] = component._changed[0] = next(component._counts)
-
-
-def changes() -> int:
-    """Another number after every assignment to a component of any class."""
-    return Component._changed[0]
 
 
 def to_float(field: str, value: Any, allowed: str) -> float:

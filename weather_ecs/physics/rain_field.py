@@ -38,9 +38,35 @@ class RainField:
 
     def rate(self, x: float, y: float, z: float) -> float:
         """mm/h at a point in the open: the areas' rates, each falling off over its soft edge."""
-        total = 0.0
-        for rate in self._arrived(x, y, z) if self._fronts else self._rates(x, y, z):
-            total += rate
+        if self._fronts:
+            return sum(self._arrived(x, y, z))
+        total, hypot = 0.0, math.hypot
+        for cx, cz, cos, sin, a, b, rate, edge, top in self._areas:
+            dx, dz = x - cx, z - cz
+            u, w = (dx * cos - dz * sin) / a, (dx * sin + dz * cos) / b
+            rho = hypot(u, w)
+            if rho < 1.0 and y < top:
+                if edge > 0.0:
+                    slope = hypot(u / a, w / b)
+                    share = (1.0 - rho) * (rho / slope if slope > 0.0 else b) / edge
+                    if share < 1.0:
+                        rate *= share * share * (3.0 - 2.0 * share)
+                total += rate
+        return total
+
+    def many(self, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.float64]:
+        """`rate` at many points (n,)."""
+        total = np.zeros(len(x))
+        fronts = self._fronts or [(SETTLED, 0.0)] * len(self._areas)
+        for area, (dry, full) in zip(self._areas, fronts, strict=True):
+            cx, cz, cos, sin, a, b, rate, edge, top = area
+            here = np.flatnonzero((np.hypot(x - cx, z - cz) <= 1.000001 * a) & (y < top))
+            if not len(here):
+                continue
+            falls = rate * turned_shares(x[here] - cx, z[here] - cz, (cos, sin), (a, b), edge)
+            if dry != SETTLED:
+                falls *= water_arrived(top - y[here], dry, full)
+            total[here] += falls
         return total
 
     def rates(self, x: float, y: float, z: float) -> dict[int, float]:
@@ -91,8 +117,15 @@ def area_shares(
     edge: float,
 ) -> NDArray[np.float64]:
     """Share of an area's rain at many places, x and z broadcast; nothing is checked."""
-    c, s, (a, b) = math.cos(heading), math.sin(heading), radii
-    dx, dz = x - center[0], z - center[1]
+    turn = math.cos(heading), math.sin(heading)
+    return turned_shares(x - center[0], z - center[1], turn, radii, edge)
+
+
+def turned_shares(
+    dx: NDArray, dz: NDArray, turn: tuple[float, float], radii: tuple[float, float], edge: float
+) -> NDArray[np.float64]:
+    """The same by the way from the centre, and the cosine and sine of the heading."""
+    (c, s), (a, b) = turn, radii
     u, w = (dx * c - dz * s) / a, (dx * s + dz * c) / b
     rho = np.hypot(u, w)
     if edge <= 0.0:

@@ -11,7 +11,7 @@ from typing import Any
 
 import esper
 
-from weather_ecs.components._base import Component, changes
+from weather_ecs.components._base import Component
 from weather_ecs.systems.queries import leaving
 from weather_ecs.systems.state import WeatherState
 
@@ -22,23 +22,14 @@ def look(state: WeatherState, kinds: Sequence[type[Component]]) -> tuple[Any, ..
     return (
         [kind._revision[0] for kind in kinds],
         leaving(entity for pairs in lists for entity, _ in pairs),
-        *_state_of(state),
+        (state.clock.steps, state.clock.remainder),
+        (state.fronts.number, state.fronts.revision, state.cloud_shapes.version),
+        (state.clouds, state.course, state.drawn),
         lists,
     )
 
 
-def _state_of(state: WeatherState) -> tuple[Any, ...]:
-    clock, fronts = state.clock, state.fronts
-    return (
-        clock.steps,
-        clock.remainder,
-        fronts.number,
-        fronts.revision,
-        state.cloud_shapes.version,
-        state.clouds,
-        state.course,
-        state.drawn,
-    )
+_changed = Component._changed
 
 
 class _Nothing:
@@ -68,6 +59,18 @@ class Glance:
         # anywhere in its world; a deletion that is pending only shows in its set of those.
         dead = getattr(esper, "_dead_entities", None)
         self._probe = None if dead is None else esper.get_component(_Nothing)
-        self._now = changes(), len(dead or ()), *_state_of(state)
+        clock, fronts = state.clock, state.fronts
+        self._now = (
+            _changed[0],
+            clock.steps,
+            clock.remainder,
+            fronts.number,
+            fronts.revision,
+            state.cloud_shapes.version,
+            state.clouds,
+            state.course,
+            state.drawn,
+            len(dead or ()),
+        )
         kept = self._kept_probe
         return kept is not None and kept is self._probe and self._now == self._kept

@@ -25,6 +25,8 @@ _SOON = 0.1  # s of the weather's clock
 _BUDGET = 400  # triangles, about 4 ms, of facets that an older version can stand in for
 _KEPT = 4096  # facets that are remembered
 _FINEST = 4.0  # m, cell of the finest grid; every coarser one is twice as wide
+_OVER_FINEST = 1.0 / _FINEST
+_KEPT_CELLS = 16384  # of the finest grid, whose boxes are remembered
 _OFFSET = 1 << 28  # makes cell numbers positive
 
 
@@ -144,10 +146,12 @@ class _Layer:
         self._ready: list[NDArray | None] = []  # the transforms that the facets are for
         self._shift: list[list[float]] = []  # of every occluder: u, height, w
         self._boxes: list[list[float]] = []  # of every piece: u, u, w, w, top
-        self._levels: list[tuple[int, float]] = []  # exponent, 1 / cell
+        self._levels: list[int] = []  # exponents of the grids in use
         self._cells: dict[int, int] = {}
         self._starts: list[int] = []
         self._members: list[int] = []
+        # By cell of the finest grid that somebody has asked about: top, u, u, w, w, number.
+        self._near: dict[tuple[int, int], list[tuple[float, ...]]] = {}
 
     def update(self, occluders: list[OccluderData], slope: tuple[float, float]) -> int:
         """Take over these occluders; returns how many pieces were carried along."""
@@ -220,30 +224,52 @@ class _Layer:
         self._members = member[order].tolist()
         self._starts = [*starts.tolist(), len(member)]
         self._cells = dict(zip(key[starts].tolist(), range(len(starts)), strict=True))
-        used = np.flatnonzero(np.bincount(level)).tolist()
-        self._levels = [(e, (1.0 / _FINEST) * 0.5**e) for e in used]
+        self._levels = np.flatnonzero(np.bincount(level)).tolist()
+        self._near = {}
 
     def covers(self, u: float, w: float, level: float) -> bool:
         """Whether a surface stands above `level` at a place."""
-        floor, boxes = math.floor, self._boxes
-        for exponent, over_cell in self._levels:
-            i, j = floor(u * over_cell) + _OFFSET, floor(w * over_cell) + _OFFSET
-            cell = self._cells.get((exponent << 58) | (i << 29) | j)
-            if cell is None:
-                continue
-            for k in self._members[self._starts[cell] : self._starts[cell + 1]]:
-                u0, u1, w0, w1, top = boxes[k]
-                if top <= level or u < u0 or u > u1 or w < w0 or w > w1:
-                    continue
-                owner = self._owner[k]
-                transform = self._occluders[owner].transform
-                facets, ready = self._facets[k], self._ready[k]
-                if facets is None or ready is not transform:
-                    facets = self._prepare(k, transform, facets)
-                su, sh, sw = self._shift[owner]
+        place = math.floor(u * _OVER_FINEST), math.floor(w * _OVER_FINEST)
+        near = self._near.get(place)
+        if near is None:
+            near = self._gather(place)
+        for top, u0, u1, w0, w1, number in near:
+            if top <= level:
+                return False
+            if u0 <= u <= u1 and w0 <= w <= w1:
+                k: int = number  # type: ignore[assignment]
+                facets = self._of(k)
+                su, sh, sw = self._shift[self._owner[k]]
                 if facets.cover(u - su, w - sw, level - sh):
                     return True
         return False
+
+    def _gather(self, place: tuple[int, int]) -> list[tuple[float, ...]]:
+        """The boxes that reach into a cell of the finest grid, the highest first."""
+        if len(self._near) > _KEPT_CELLS:
+            self._near.clear()
+        i, j = place
+        found: list[tuple[float, ...]] = []
+        for e in self._levels:
+            cell = self._cells.get((e << 58) | (((i >> e) + _OFFSET) << 29) | ((j >> e) + _OFFSET))
+            if cell is None:
+                continue
+            for k in self._members[self._starts[cell] : self._starts[cell + 1]]:
+                u0, u1, w0, w1, top = self._boxes[k]
+                across = u1 >= i * _FINEST and u0 <= (i + 1) * _FINEST
+                if across and w1 >= j * _FINEST and w0 <= (j + 1) * _FINEST:
+                    found.append((top, u0, u1, w0, w1, k))
+        found.sort(key=lambda box: (-box[0], box[5]))
+        self._near[place] = found
+        return found
+
+    def _of(self, k: int) -> Facets:
+        """The facets of a piece as it stands."""
+        transform = self._occluders[self._owner[k]].transform
+        facets = self._facets[k]
+        if facets is None or self._ready[k] is not transform:
+            facets = self._prepare(k, transform, facets)
+        return facets
 
     def _prepare(self, k: int, transform: NDArray, before: Facets | None) -> Facets:
         facets, exact = self._store.get(self._pieces[k], transform, self._slope, before)

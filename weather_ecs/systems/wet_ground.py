@@ -91,12 +91,24 @@ class WetGround:
     def at(self, x: float, y: float, z: float, rate: float, time: float) -> float:
         """mm at a place at the clock's `time`, where it rains at `rate` mm/h now."""
         water = 0.0
+        if not self.levels and rate <= 0.0:
+            return water
         for level in self.levels.values():
             water = self.law.merge_one(water, level.at(x, y, z, self.ticks))
         rest = time - self.ticks * TICK
         if rest > 0.0 and (water > 0.0 or rate > 0.0):
             water = self.law.settle_one(water, rate * MM_PER_S, rest)
         return water
+
+    def many(
+        self, x: NDArray, y: NDArray, z: NDArray, rate: NDArray, time: float
+    ) -> NDArray[np.float64]:
+        """`at` for many places (n,)."""
+        water = np.zeros(len(x))
+        for level in self.levels.values():
+            water = self.law.merge(water, level.many(x, y, z, self.ticks))
+        rest = time - self.ticks * TICK
+        return self.law.settle(water, rate * MM_PER_S, rest) if rest > 0.0 else water
 
     def data(self) -> WetnessData:
         """What the GPU's own map begins with; the same object within one second."""

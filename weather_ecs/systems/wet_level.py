@@ -111,6 +111,18 @@ class WetLevel:
             water = self.tiles.law.settle_one(water, rate, (ticks - self.since) * TICK)
         return water
 
+    def many(self, x: NDArray, y: NDArray, z: NDArray, ticks: int) -> NDArray[np.float64]:
+        """`at` for many places (n,)."""
+        if not self._stood:
+            return self._current().many(x, z)
+        if self._field is None:
+            self._field = RainField(self.rows)
+        water = self.tiles.many(x, z)
+        if ticks > self.since:
+            rate = self._field.many(x, y, z) * MM_PER_S
+            water = self.tiles.law.settle(water, rate, (ticks - self.since) * TICK)
+        return water
+
     def _current(self) -> WetTiles:
         """The tiles as they are now; made for whoever asks, and no part of the state."""
         if self._now is None:

@@ -72,10 +72,10 @@ class Resting:
     def _left(self, tile: Tile) -> float:
         return math.exp((tile.since - self.now) / DRYING)
 
-    def cell(self, place: Place, x: int, z: int) -> float:
-        """mm in a cell of a tile."""
+    def tile(self, place: Place) -> NDArray[np.float64]:
+        """mm (8, 8) of a tile, rows along z; 0 where none rests."""
         tile = self.tiles.get(place)
-        return 0.0 if tile is None else _WATER.item(tile.codes.item(z, x)) * self._left(tile)
+        return np.zeros((8, 8)) if tile is None else _WATER[tile.codes] * self._left(tile)
 
     def water(self) -> NDArray[np.float64]:
         """mm (n, 8, 8) of all tiles, in the order they are in."""

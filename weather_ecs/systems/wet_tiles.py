@@ -29,6 +29,7 @@ from weather_ecs.systems.wet_shares import SIDE, Fallen, Patterns, Shape, moment
 FINEST, COARSEST = -2, 40  # levels; a cell is 2**level m wide
 MOST_TILES = 1024
 _CELLS = 256  # of an area, about
+_PATCH = SIDE + 1
 
 
 def level_of(a: float, b: float) -> int:
@@ -54,6 +55,7 @@ class WetTiles:
         self._inflow = np.zeros((0, SIDE, SIDE))  # mm/s
         self._patterns = Patterns(self.cell)
         self._resting = Resting()
+        self._patches: dict[tuple[int, int], list[float]] = {}  # that somebody has asked about
 
     def __len__(self) -> int:
         return len(self._places) + len(self._resting.tiles)
@@ -138,22 +140,57 @@ class WetTiles:
         self._places, self._codes = places, codes
         self._rows = {place: row for row, place in enumerate(places)}
         self._inflow = np.zeros(codes.shape)
+        self._patches = {}
 
     def at(self, x: float, z: float) -> float:
         """mm at a place, between the middles of the four cells around it."""
         u, w = x / self.cell - 0.5, z / self.cell - 0.5
         i, j = math.floor(u), math.floor(w)
-        u, w = u - i, w - j
-        low = self._cell(i, j) * (1.0 - u) + self._cell(i + 1, j) * u
-        high = self._cell(i, j + 1) * (1.0 - u) + self._cell(i + 1, j + 1) * u
+        place = i >> 3, j >> 3
+        patch = self._patches.get(place)
+        if patch is None:
+            patch = self._patch(place)
+        if not patch:
+            return 0.0
+        u, w, k = u - i, w - j, (j & 7) * _PATCH + (i & 7)
+        low = patch[k] * (1.0 - u) + patch[k + 1] * u
+        high = patch[k + _PATCH] * (1.0 - u) + patch[k + _PATCH + 1] * u
         return low * (1.0 - w) + high * w
 
-    def _cell(self, i: int, j: int) -> float:
-        row = self._rows.get((i >> 3, j >> 3))
-        if row is None:
-            return self._resting.cell((i >> 3, j >> 3), i & 7, j & 7)
-        root = self._codes.item(row, j & 7, i & 7) / self._steps
-        return root * root * self.law.most
+    def many(self, x: NDArray, z: NDArray) -> NDArray[np.float64]:
+        """`at` for many places (n,)."""
+        u, w = x / self.cell - 0.5, z / self.cell - 0.5
+        i, j = np.floor(u).astype(np.int64), np.floor(w).astype(np.int64)
+        places, patch_of = np.unique(((i >> 3) << 32) + (j >> 3) + (1 << 31), return_inverse=True)
+        table = np.zeros((len(places), _PATCH * _PATCH))
+        for row, place in zip(table, places.tolist(), strict=True):
+            patch = self._patch((place >> 32, (place & (1 << 32) - 1) - (1 << 31)))
+            if patch:
+                row[:] = patch
+        u, w, k = u - i, w - j, (j & 7) * _PATCH + (i & 7)
+        low = table[patch_of, k] * (1.0 - u) + table[patch_of, k + 1] * u
+        k += _PATCH
+        high = table[patch_of, k] * (1.0 - u) + table[patch_of, k + 1] * u
+        return np.asarray(low * (1.0 - w) + high * w)
+
+    def _patch(self, place: tuple[int, int]) -> list[float]:
+        """mm on the cells of a tile and the first ones beyond, rows along z; of a dry one none."""
+        patch = self._patches.get(place)
+        if patch is None:
+            if len(self._patches) > MOST_TILES:
+                self._patches.clear()
+            i, j = place
+            water = np.zeros((_PATCH, _PATCH))
+            water[:SIDE, :SIDE] = self._tile((i, j))
+            water[:SIDE, SIDE] = self._tile((i + 1, j))[:, 0]
+            water[SIDE, :SIDE] = self._tile((i, j + 1))[0]
+            water[SIDE, SIDE] = self._tile((i + 1, j + 1))[0, 0]
+            patch = self._patches[place] = water.ravel().tolist() if water.any() else []
+        return patch
+
+    def _tile(self, place: tuple[int, int]) -> NDArray[np.float64]:
+        row = self._rows.get(place)
+        return self._resting.tile(place) if row is None else self._decode(self._codes[row])
 
     def arrays(self) -> tuple[float, NDArray[np.int64], NDArray[np.float32]]:
         """(cell in m, tiles (n, 2), water (n, 8, 8) in mm, rows along z)."""
