@@ -23,7 +23,7 @@ from weather_ecs.errors import (
 )
 from weather_ecs.public_glsl import glsl
 from weather_ecs.quality import QualitySettings
-from weather_ecs.sampling import Sample
+from weather_ecs.sampling import Sample, Samples
 from weather_ecs.stats import Stats
 from weather_ecs.weather import Weather
 
@@ -36,6 +36,7 @@ __all__ = [
     "InvalidValueError",
     "QualitySettings",
     "Sample",
+    "Samples",
     "ShaderError",
     "SnapshotError",
     "Stats",

@@ -1,25 +1,30 @@
 """`Sample`: the weather at one place, for the game's own rules; plain numbers, no OpenGL.
 
-The formulas are those of `physics.optics` and `physics.phase`, written for one point at a time: a
-game asks for thousands of points a frame.
+The formulas are those of `physics.optics` and `physics.phase`, written for one point at a time, and
+in arrays for many at once: a game asks for thousands of points a frame.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
+import numpy as np
 from numpy.typing import NDArray
 
+from weather_ecs.components._base import FAR
+from weather_ecs.errors import InvalidValueError
 from weather_ecs.frame import FrameData
 from weather_ecs.physics.lamps import Lamps
-from weather_ecs.physics.lightning import on_surface
-from weather_ecs.physics.optics import CONTRAST, falling_extinction
-from weather_ecs.physics.phase import share_at, temperature_at
+from weather_ecs.physics.lightning import on_level, on_surface
+from weather_ecs.physics.optics import CONTRAST, falling_extinction, falling_extinctions
+from weather_ecs.physics.phase import share_at, shares_at, temperature_at, temperatures_at
 from weather_ecs.physics.rain_field import RainField
 from weather_ecs.physics.snow_cover import DENSITY, SOAKED
 from weather_ecs.physics.wetness import FILM
-from weather_ecs.physics.wind import wind_at
+from weather_ecs.physics.wind import wind_at, winds_at
 
+Floats = NDArray[np.float64]
+_FEW = 100  # points that are quicker asked about one by one
 _RED, _GREEN, _BLUE = 0.2126, 0.7152, 0.0722  # luminance of linear RGB (Rec. 709)
 
 
@@ -38,16 +43,35 @@ class Sample(NamedTuple):
     humidity: float  # 0 to 1, relative
 
 
+class Samples(NamedTuple):
+    """The weather at n points: every field of `Sample` as an array, its units the same."""
+
+    rain_rate: Floats  # (n,)
+    snow_rate: Floats  # (n,)
+    sheltered: NDArray[np.bool_]  # (n,)
+    wind: Floats  # (n, 3)
+    visibility: Floats  # (n,)
+    wetness: Floats  # (n,)
+    snow_depth: Floats  # (n,)
+    temperature: Floats  # (n,)
+    light: Floats  # (n,)
+    humidity: Floats  # (n,)
+
+
 class Shelter(Protocol):
-    """What knows whether something keeps the rain off a point."""
+    """What knows whether something keeps the rain off a point, or off each of many."""
 
     def covers(self, x: float, y: float, z: float) -> bool: ...
+
+    def many(self, x: Floats, y: Floats, z: Floats) -> NDArray[np.bool_]: ...
 
 
 class Ground(Protocol):
     """What knows the water in mm on a place where it rains at `rate` mm/h at a time in s."""
 
     def at(self, x: float, y: float, z: float, rate: float, time: float) -> float: ...
+
+    def many(self, x: Floats, y: Floats, z: Floats, rate: Floats, time: float) -> Floats: ...
 
 
 class SampleField:
@@ -148,11 +172,67 @@ class SampleField:
         )
         return tuple.__new__(Sample, made)  # at half the cost of its own constructor
 
+    def many(self, points: Floats) -> Samples:
+        """Everything at many points (n, 3)."""
+        if 0 < len(points) <= _FEW:
+            columns = zip(*[self.at(*point) for point in points.tolist()], strict=True)
+            return Samples(*[np.array(column) for column in columns])
+        x, y, z = np.ascontiguousarray(points.T)
+        air = self._air
+        rate = self._rain.many(x, y, z)
+        temperature = temperatures_at(air.temperature, y)
+        snow = rate * shares_at(temperature, air.humidity)
+        rain = rate - snow
+        visibility = CONTRAST / (self._fog + falling_extinctions(rain, snow))
+        none = np.zeros(len(x))
+        sheltered = none > 0.0 if self._shelter is None else self._shelter.many(x, y, z)
+        wetness, lying = none, none.copy()
+        if self._ground is not None and self._snow is not None:
+            falls = rate * air.snow_share
+            wetness = self._ground.many(x, y, z, rate - falls, self._time)
+            lying = self._snow.many(x, y, z, falls * self._settling, self._time)
+            if self._melts:
+                wetness = np.maximum(wetness, np.minimum(lying / SOAKED * FILM, FILM))
+        for each in (rain, snow, wetness, lying):
+            each[sheltered] = 0.0
+        light = self._day_light + self._lamps.many(x, y, z)
+        for place, strength in self._flashes:
+            light += strength * on_level(place, x, y, z)
+        return Samples(
+            rain,
+            snow,
+            sheltered,
+            winds_at(self._wind, self._profile, y),
+            visibility,
+            wetness,
+            lying / DENSITY,
+            temperature,
+            light,
+            np.full(len(x), air.humidity),
+        )
+
     def mode(self, x: float, z: float) -> str:
         """ "near" inside an area (f < 1), "far" where there is one elsewhere, else "none"."""
         if not self._rain:
             return "none"
         return "near" if self._rain.covers(x, z) else "far"
+
+
+def check_points(field: str, value: Any) -> Floats:
+    """Points (n, 3) in m out of an array, or a sequence of sequences, of numbers."""
+    allowed = f"an array of shape (n, 3) of numbers >= {-FAR:g} and <= {FAR:g}"
+    try:
+        points = np.asarray(value)
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidValueError(field, value, allowed) from None
+    if points.shape == (0,):
+        points = points.reshape(0, 3)
+    if points.ndim != 2 or points.shape[1] != 3 or points.dtype.kind not in "iuf":
+        raise InvalidValueError(field, value, allowed)
+    points = points.astype(np.float64)
+    if not (np.abs(points) <= FAR).all():  # NaN fails the comparison
+        raise InvalidValueError(field, value, allowed)
+    return points
 
 
 def _lamps(lights: NDArray) -> Lamps:

@@ -14,7 +14,7 @@ from weather_ecs.errors import ClosedError, InvalidValueError, WeatherError
 from weather_ecs.frame import FrameData, SkyLight
 from weather_ecs.physics.footprint import SlopeFollower, fall_slope, fall_speed_over, landing_wind
 from weather_ecs.physics.lightning import GREATEST_CURRENT, LEAST_CURRENT
-from weather_ecs.sampling import Sample, SampleField
+from weather_ecs.sampling import Sample, SampleField, Samples, check_points
 from weather_ecs.stats import Stats
 from weather_ecs.systems import ExtractSystem, WeatherProcessor, WeatherState, scheduled
 from weather_ecs.systems.climate import oldest_state
@@ -73,6 +73,15 @@ class Simulation:
                 return self._sample_field().at(x, y, z)
         x, y, z = check_position("position", position)
         return self._sample_field().at(x, y, z)
+
+    def samples(self, positions: Any) -> Samples:
+        """The weather at many points (n, 3) in metres, in arrays; n may be 0.
+
+        As `sample` has it at each of them, at a tenth of its cost where there are thousands.
+        Raises InvalidValueError for another shape, and for numbers that are not finite.
+        """
+        points = check_points("positions", positions)
+        return self._sample_field().many(points)
 
     @property
     def light(self) -> SkyLight:

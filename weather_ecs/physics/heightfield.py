@@ -57,7 +57,7 @@ class Facets:
     ground may be coarse, is told of walls from the point on.
     """
 
-    __slots__ = ("_cell", "_columns", "_inside", "_low", "_planes", "_rows", "_top")
+    __slots__ = ("_arrays", "_cell", "_columns", "_inside", "_low", "_planes", "_rows", "_top")
 
     def __init__(
         self, piece: Piece, turn: NDArray, slope: tuple[float, float], raised: float = 0.0
@@ -78,6 +78,7 @@ class Facets:
         limits = np.stack([heights.min(axis=1), heights.max(axis=1)], axis=1)
         self._planes: list[list[float]] = np.hstack([planes, limits]).tolist()
         self._inside: list[list[float]] | None = None
+        self._arrays: tuple[NDArray, NDArray] | None = None  # as `many` has them
         if len(places) <= FEW:
             edges = _edges(places, shown[seen])
             self._inside = np.hstack([edges, planes, limits]).tolist()
@@ -113,6 +114,27 @@ class Facets:
         p, q, r, low, high = self._planes[top]
         # Beyond its edge, by half a cell at most, a steep triangle is not carried on.
         return low > level or (high > level and p * u + q * w + r > level)
+
+    def many(self, u: NDArray, w: NDArray, level: NDArray) -> NDArray[np.bool_]:
+        """`cover` for many places (n,)."""
+        if self._inside is not None:
+            found = np.zeros(len(u), bool)
+            for a, b, c, d, e, f, g, h, i, p, q, r, low, high in self._inside:
+                inside = (high > level) & (a * u + b * w + c >= 0.0) & (d * u + e * w + f >= 0.0)
+                inside &= g * u + h * w + i >= 0.0
+                found |= inside & ((low > level) | (p * u + q * w + r > level))
+            return found
+        if self._arrays is None:
+            self._arrays = np.asarray(self._top), np.array(self._planes)
+        table, planes = self._arrays
+        column = ((u - self._low[0]) / self._cell).astype(np.int64)
+        row = ((w - self._low[1]) / self._cell).astype(np.int64)
+        here = (u >= self._low[0]) & (w >= self._low[1])
+        here &= (column < self._columns) & (row < self._rows)
+        top = table[np.where(here, row * self._columns + column, 0)]
+        p, q, r, low, high = planes[top].T
+        above = (low > level) | ((high > level) & (p * u + q * w + r > level))
+        return np.asarray(here & (top >= 0) & above)
 
 
 def _planes(

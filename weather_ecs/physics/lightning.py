@@ -163,6 +163,15 @@ def on_surface(place: Vector, point: Vector, normal: Vector) -> float:
     return float(falloff(distance2)) * (ALL_ROUND + (1.0 - ALL_ROUND) * max(facing, 0.0))
 
 
+def on_level(place: Vector, x: NDArray, y: NDArray, z: NDArray) -> NDArray:
+    """`on_surface` of level surfaces that look up, at many points."""
+    dx, dy, dz = place[0] - x, place[1] - y, place[2] - z
+    distance2 = dx * dx + dy * dy + dz * dz
+    length = np.sqrt(distance2)
+    facing = np.divide(dy, length, out=np.ones_like(length), where=length > 0.0)
+    return np.asarray(falloff(distance2) * (ALL_ROUND + (1.0 - ALL_ROUND) * np.maximum(facing, 0)))
+
+
 def attached(x: float, z: float, ground: float, current: float, tips: NDArray) -> Vector:
     """Where a leader ends that comes down over (x, z): on the ground or on what stands near.
 

@@ -73,6 +73,11 @@ def falling_extinction(rain_rate: float, snow_rate: float) -> float:
     return float(_RAIN * rain_rate**_RAIN_POWER + _SNOW * snow_rate)
 
 
+def falling_extinctions(rain_rate: FloatArray, snow_rate: FloatArray) -> FloatArray:
+    """`falling_extinction` at many points."""
+    return np.asarray(_RAIN * rain_rate**_RAIN_POWER + _SNOW * snow_rate)
+
+
 def layer_path(elevation_sine: ArrayLike, depth: float) -> FloatArray:
     """Metres of a layer `depth` m deep above the eye that a ray of this elevation goes through.
 

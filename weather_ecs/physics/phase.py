@@ -63,6 +63,11 @@ def temperature_at(temperature: float, height: float) -> float:
     return temperature - LAPSE_RATE * min(max(height, -11_000.0), 11_000.0)
 
 
+def temperatures_at(temperature: float, heights: FloatArray) -> FloatArray:
+    """`temperature_at` for many heights."""
+    return np.asarray(temperature - LAPSE_RATE * np.clip(heights, -11_000.0, 11_000.0))
+
+
 def share_at(temperature: float, humidity: float) -> float:
     """`snow_share` of the wet bulb, for one point; temperatures beyond 100 degrees count as 100.
 
@@ -74,6 +79,16 @@ def share_at(temperature: float, humidity: float) -> float:
     if temperature >= rain:
         return 0.0
     return float(snow_share(wet_bulb(temperature, humidity)))
+
+
+def shares_at(temperatures: FloatArray, humidity: float) -> FloatArray:
+    """`share_at` for many points."""
+    snow, rain = _bounds(humidity)
+    shares = np.where(temperatures <= snow, 1.0, 0.0)
+    both = (temperatures > snow) & (temperatures < rain)
+    if both.any():
+        shares[both] = snow_share(wet_bulb(temperatures[both], humidity))
+    return shares
 
 
 @lru_cache(maxsize=256)

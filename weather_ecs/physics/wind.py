@@ -27,7 +27,7 @@ from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from weather_ecs.errors import InvalidValueError
 
@@ -131,6 +131,16 @@ def wind_at(
         return wind
     share = height_share(y - profile.ground, profile.reference, profile.exponent)
     return wind[0] * share, wind[1] * share, wind[2] * share
+
+
+def winds_at(
+    wind: tuple[float, float, float], profile: Profile, y: FloatArray
+) -> NDArray[np.float64]:
+    """`wind_at` at many heights (n,): (n, 3)."""
+    if profile.exponent == 0.0:
+        return np.tile(np.array(wind), (len(y), 1))
+    height = np.clip(y - profile.ground, LOWEST, HIGHEST)
+    return np.asarray((height / profile.reference)[:, None] ** profile.exponent * np.array(wind))
 
 
 def _times(t: ArrayLike, **joints: float) -> tuple[FloatArray, list[FloatArray]]:

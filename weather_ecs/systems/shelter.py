@@ -11,12 +11,14 @@ Callback occluders draw on the GPU alone and are not seen here.
 from __future__ import annotations
 
 import math
+from math import floor
 
 import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.frame import OccluderData
 from weather_ecs.physics.heightfield import Facets, Piece, pieces
+from weather_ecs.systems.box_grid import FINEST, BoxGrid
 
 MARGIN = 0.25  # m above a point from which on something counts as cover; walls do from it on
 # Work is counted and not timed, so that a slow machine gives the same answers.
@@ -24,10 +26,8 @@ _CHEAP = 500  # pieces, about 1 ms; an update of more is made at most every _SOO
 _SOON = 0.1  # s of the weather's clock
 _BUDGET = 400  # triangles, about 4 ms, of facets that an older version can stand in for
 _KEPT = 4096  # facets that are remembered
-_FINEST = 4.0  # m, cell of the finest grid; every coarser one is twice as wide
-_OVER_FINEST = 1.0 / _FINEST
-_KEPT_CELLS = 16384  # of the finest grid, whose boxes are remembered
-_OFFSET = 1 << 28  # makes cell numbers positive
+_FEW = 24  # points that are quicker asked about one by one
+_OVER_FINEST = 1.0 / FINEST
 
 
 class ShelterIndex:
@@ -75,6 +75,17 @@ class ShelterIndex:
         level = y + MARGIN
         u, w = x + y * self._slope[0], z + y * self._slope[1]
         return self._still.covers(u, w, level) or self._moving.covers(u, w, level)
+
+    def many(self, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.bool_]:
+        """`covers` for many points (n,)."""
+        if self._due is not None:
+            self._catch_up(*self._due)
+        level = y + MARGIN
+        u, w = x + y * self._slope[0], z + y * self._slope[1]
+        covered = self._still.many(u, w, level)
+        left = np.flatnonzero(~covered)
+        covered[left] = self._moving.many(u[left], w[left], level[left])
+        return covered
 
 
 class _Meshes:
@@ -145,13 +156,8 @@ class _Layer:
         self._facets: list[Facets | None] = []
         self._ready: list[NDArray | None] = []  # the transforms that the facets are for
         self._shift: list[list[float]] = []  # of every occluder: u, height, w
-        self._boxes: list[list[float]] = []  # of every piece: u, u, w, w, top
-        self._levels: list[int] = []  # exponents of the grids in use
-        self._cells: dict[int, int] = {}
-        self._starts: list[int] = []
-        self._members: list[int] = []
-        # By cell of the finest grid that somebody has asked about: top, u, u, w, w, number.
-        self._near: dict[tuple[int, int], list[tuple[float, ...]]] = {}
+        self._grid = BoxGrid(np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0))
+        self._near = self._grid.known
 
     def update(self, occluders: list[OccluderData], slope: tuple[float, float]) -> int:
         """Take over these occluders; returns how many pieces were carried along."""
@@ -196,72 +202,39 @@ class _Layer:
         half = np.einsum("nij,nj->ni", np.abs(turns[owner]), self._half)
         places = middle[:, [0, 2]] + middle[:, 1:2] * slope
         wide = half[:, [0, 2]] + half[:, 1:2] * np.abs(slope)
-        low, high = places - wide, places + wide
         top = middle[:, 1] + half[:, 1] + MARGIN  # as walls are asked for
-        self._boxes = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1], top], axis=1).tolist()
-        self._file(low, high)
-
-    def _file(self, low: NDArray, high: NDArray) -> None:
-        """Enter the boxes into grids, each where it lies in four cells at most."""
-        size = np.maximum((high - low).max(axis=1, initial=0.0), _FINEST)
-        level = np.ceil(np.log2(size / _FINEST)).astype(np.int64)
-        over_cell = (1.0 / _FINEST) * 0.5**level
-        first = np.floor(low * over_cell[:, None]).astype(np.int64) + _OFFSET
-        last = np.floor(high * over_cell[:, None]).astype(np.int64) + _OFFSET
-        keys, members = [], []
-        for i, also_i in ((first[:, 0], None), (last[:, 0], first[:, 0] < last[:, 0])):
-            for j, also_j in ((first[:, 1], None), (last[:, 1], first[:, 1] < last[:, 1])):
-                entered = np.ones(len(low), bool)
-                for also in (also_i, also_j):
-                    if also is not None:
-                        entered &= also
-                keys.append(((level << 58) | (i << 29) | j)[entered])
-                members.append(np.flatnonzero(entered))
-        key, member = np.concatenate(keys), np.concatenate(members)
-        order = np.argsort(key, kind="stable")
-        key = key[order]
-        starts = np.flatnonzero(np.diff(key, prepend=-1))
-        self._members = member[order].tolist()
-        self._starts = [*starts.tolist(), len(member)]
-        self._cells = dict(zip(key[starts].tolist(), range(len(starts)), strict=True))
-        self._levels = np.flatnonzero(np.bincount(level)).tolist()
-        self._near = {}
+        self._grid = BoxGrid(places - wide, places + wide, top)
+        self._near = self._grid.known
 
     def covers(self, u: float, w: float, level: float) -> bool:
         """Whether a surface stands above `level` at a place."""
-        place = math.floor(u * _OVER_FINEST), math.floor(w * _OVER_FINEST)
+        place = floor(u * _OVER_FINEST), floor(w * _OVER_FINEST)
         near = self._near.get(place)
         if near is None:
-            near = self._gather(place)
-        for top, u0, u1, w0, w1, number in near:
+            near = self._grid.near(place)
+        for top, u0, u1, w0, w1, k in near:
             if top <= level:
                 return False
             if u0 <= u <= u1 and w0 <= w <= w1:
-                k: int = number  # type: ignore[assignment]
                 facets = self._of(k)
                 su, sh, sw = self._shift[self._owner[k]]
                 if facets.cover(u - su, w - sw, level - sh):
                     return True
         return False
 
-    def _gather(self, place: tuple[int, int]) -> list[tuple[float, ...]]:
-        """The boxes that reach into a cell of the finest grid, the highest first."""
-        if len(self._near) > _KEPT_CELLS:
-            self._near.clear()
-        i, j = place
-        found: list[tuple[float, ...]] = []
-        for e in self._levels:
-            cell = self._cells.get((e << 58) | (((i >> e) + _OFFSET) << 29) | ((j >> e) + _OFFSET))
-            if cell is None:
+    def many(self, u: NDArray, w: NDArray, level: NDArray) -> NDArray[np.bool_]:
+        """`covers` for many places (n,)."""
+        covered = np.zeros(len(u), bool)
+        for k, places in self._grid.pairs(u, w, level):
+            left = places[~covered[places]]
+            facets = self._of(k)
+            su, sh, sw = self._shift[self._owner[k]]
+            if len(left) > _FEW:
+                covered[left] = facets.many(u[left] - su, w[left] - sw, level[left] - sh)
                 continue
-            for k in self._members[self._starts[cell] : self._starts[cell + 1]]:
-                u0, u1, w0, w1, top = self._boxes[k]
-                across = u1 >= i * _FINEST and u0 <= (i + 1) * _FINEST
-                if across and w1 >= j * _FINEST and w0 <= (j + 1) * _FINEST:
-                    found.append((top, u0, u1, w0, w1, k))
-        found.sort(key=lambda box: (-box[0], box[5]))
-        self._near[place] = found
-        return found
+            for n in left.tolist():
+                covered[n] = facets.cover(u.item(n) - su, w.item(n) - sw, level.item(n) - sh)
+        return covered
 
     def _of(self, k: int) -> Facets:
         """The facets of a piece as it stands."""
