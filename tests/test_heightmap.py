@@ -530,3 +530,11 @@ def test_a_sudden_change_of_the_wind_counts_at_once_and_steep_slopes_are_followe
     assert follower.follow((0.38, 0.2)) == (0.3, 0.2)
     assert follower.follow((3.0, 0.0)) == (3.0, 0.0)
     assert follower.follow((3.2, 0.0)) == (3.0, 0.0)
+
+
+def test_what_falls_slowly_comes_in_behind_things() -> None:
+    wind = (8.0, 0.0, -6.0)
+    rain, snow = fall_slope(wind, 6.0), fall_slope(wind, 1.2)
+    assert rain == pytest.approx((8 / 6, -1.0), abs=0.011)
+    assert snow == pytest.approx((0.6, -0.6))
+    assert fall_slope((0.3, 0.0, 0.0), 1.2) == pytest.approx((0.24, 0.0), abs=0.011)

@@ -18,6 +18,7 @@ from .wind import Profile, wind_at
 # The wind is rounded to this slope, so that its small changes do not call for a new capture.
 _SLOPE_STEP = 0.02
 _STEEPEST = 4.0
+_SLOW, _SWIRLED = 2.0, 0.6  # m/s, what falls slower is snow; its steepest slope
 # m: a drop takes on the air's motion over speed^2/g, about 3 m for one of 1.5 mm, and so lands with
 # the motion of the air that it has come through.
 LANDING = 4.0
@@ -121,7 +122,10 @@ def fall_slope(wind: tuple[float, float, float], fall_speed: float) -> tuple[flo
 
 def _slope(wind: float, fall_speed: float) -> float:
     slope = round(wind / fall_speed / _SLOPE_STEP) * _SLOPE_STEP
-    return min(max(slope, -_STEEPEST), _STEEPEST)
+    # What falls slowly is carried in behind houses and trees by the eddies there: the strip that
+    # its mean fall would leave bare is not bare.
+    steepest = _STEEPEST if fall_speed > _SLOW else _SWIRLED
+    return min(max(slope, -steepest), steepest)
 
 
 def fall_speed_of(rain_rate: float) -> float:
