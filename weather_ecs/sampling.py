@@ -17,7 +17,13 @@ from weather_ecs.frame import FrameData
 from weather_ecs.physics.lamps import Lamps
 from weather_ecs.physics.lightning import on_level, on_surface
 from weather_ecs.physics.optics import CONTRAST, falling_extinction, falling_extinctions
-from weather_ecs.physics.phase import share_at, shares_at, temperature_at, temperatures_at
+from weather_ecs.physics.phase import (
+    share_at,
+    shares_at,
+    temperature_at,
+    temperatures_at,
+    warmest_snow,
+)
 from weather_ecs.physics.rain_field import RainField
 from weather_ecs.physics.snow_cover import DENSITY, SOAKED
 from weather_ecs.physics.wetness import FILM
@@ -88,6 +94,7 @@ class SampleField:
         "_melts",
         "_profile",
         "_rain",
+        "_rain_from",
         "_settling",
         "_shelter",
         "_snow",
@@ -106,6 +113,7 @@ class SampleField:
         """`before`: the last one, whose lamps may serve again."""
         self._rain = RainField(frame.areas, frame.fronts)
         self._air, self._fog = frame.air, frame.fog.extinction
+        self._rain_from = warmest_snow(frame.air.humidity)
         self._shelter, self._ground, self._time = shelter, ground, frame.time
         self._snow, self._melts = snow, frame.air.wet_bulb > 0.0
         self._settling = frame.flakes.settling
@@ -144,16 +152,18 @@ class SampleField:
     def at(self, x: float, y: float, z: float) -> Sample:
         """Everything at a point."""
         rate = self._rain.rate(x, y, z)
-        temperature = temperature_at(self._air.temperature, y)
+        air = self._air
+        temperature = temperature_at(air.temperature, y)
         rain, snow, lost = 0.0, 0.0, self._fog
         if rate > 0.0:
-            snow = rate * share_at(temperature, self._air.humidity)
+            if temperature < self._rain_from:
+                snow = rate * share_at(temperature, air.humidity)
             rain = rate - snow
             lost += falling_extinction(rain, snow)
-        sheltered = self.sheltered(x, y, z)
+        sheltered = self._shelter is not None and self._shelter.covers(x, y, z)
         wetness, lying = 0.0, 0.0
         if self._ground is not None and self._snow is not None and not sheltered:
-            falls = rate * self._air.snow_share
+            falls = rate * air.snow_share
             wetness = self._ground.at(x, y, z, rate - falls, self._time)
             lying = self._snow.at(x, y, z, falls * self._settling, self._time)
             if lying > 0.0 and self._melts:
@@ -167,8 +177,8 @@ class SampleField:
             wetness,
             lying / DENSITY,
             temperature,
-            self.light(x, y, z),
-            self._air.humidity,
+            self.light(x, y, z) if self._flashes else self._day_light + self._lamps.at(x, y, z),
+            air.humidity,
         )
         return tuple.__new__(Sample, made)  # at half the cost of its own constructor
 

@@ -81,6 +81,11 @@ def share_at(temperature: float, humidity: float) -> float:
     return float(snow_share(wet_bulb(temperature, humidity)))
 
 
+def warmest_snow(humidity: float) -> float:
+    """Temperature from which on there is rain only."""
+    return _bounds(humidity)[1]
+
+
 def shares_at(temperatures: FloatArray, humidity: float) -> FloatArray:
     """`share_at` for many points."""
     snow, rain = _bounds(humidity)

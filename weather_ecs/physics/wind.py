@@ -129,7 +129,8 @@ def wind_at(
     """The mean wind at a world height y, m/s; `wind` is that at the reference height."""
     if profile.exponent == 0.0:
         return wind
-    share = height_share(y - profile.ground, profile.reference, profile.exponent)
+    height = min(max(y - profile.ground, LOWEST), HIGHEST)
+    share = (height / profile.reference) ** profile.exponent
     return wind[0] * share, wind[1] * share, wind[2] * share
 
 

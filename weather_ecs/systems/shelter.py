@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.frame import OccluderData
 from weather_ecs.physics.heightfield import Facets, Piece, pieces
-from weather_ecs.systems.box_grid import FINEST, BoxGrid
+from weather_ecs.systems.box_grid import FINEST, BoxGrid, Near
 
 MARGIN = 0.25  # m above a point from which on something counts as cover; walls do from it on
 # Work is counted and not timed, so that a slow machine gives the same answers.
@@ -38,6 +38,7 @@ class ShelterIndex:
         self._facets = _FacetStore()
         self._still = _Layer(self._meshes, self._facets)
         self._moving = _Layer(self._meshes, self._facets)
+        self._layers = self._still, self._moving
         self._seen: tuple[OccluderData, ...] = ()
         self._slope = (0.0, 0.0)
         self._cost = 0  # pieces that the last update carried along
@@ -74,7 +75,14 @@ class ShelterIndex:
             self._catch_up(*self._due)
         level = y + MARGIN
         u, w = x + y * self._slope[0], z + y * self._slope[1]
-        return self._still.covers(u, w, level) or self._moving.covers(u, w, level)
+        place = floor(u * _OVER_FINEST), floor(w * _OVER_FINEST)
+        for layer in self._layers:
+            near = layer.known.get(place)
+            if near is None:
+                near = layer.grid.near(place)
+            if near and near[0][0] > level and layer.covers(near, u, w, level):
+                return True
+        return False
 
     def many(self, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.bool_]:
         """`covers` for many points (n,)."""
@@ -156,8 +164,8 @@ class _Layer:
         self._facets: list[Facets | None] = []
         self._ready: list[NDArray | None] = []  # the transforms that the facets are for
         self._shift: list[list[float]] = []  # of every occluder: u, height, w
-        self._grid = BoxGrid(np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0))
-        self._near = self._grid.known
+        self.grid = BoxGrid(np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0))
+        self.known = self.grid.known
 
     def update(self, occluders: list[OccluderData], slope: tuple[float, float]) -> int:
         """Take over these occluders; returns how many pieces were carried along."""
@@ -203,21 +211,19 @@ class _Layer:
         places = middle[:, [0, 2]] + middle[:, 1:2] * slope
         wide = half[:, [0, 2]] + half[:, 1:2] * np.abs(slope)
         top = middle[:, 1] + half[:, 1] + MARGIN  # as walls are asked for
-        self._grid = BoxGrid(places - wide, places + wide, top)
-        self._near = self._grid.known
+        self.grid = BoxGrid(places - wide, places + wide, top)
+        self.known = self.grid.known
 
-    def covers(self, u: float, w: float, level: float) -> bool:
-        """Whether a surface stands above `level` at a place."""
-        place = floor(u * _OVER_FINEST), floor(w * _OVER_FINEST)
-        near = self._near.get(place)
-        if near is None:
-            near = self._grid.near(place)
+    def covers(self, near: list[Near], u: float, w: float, level: float) -> bool:
+        """Whether a surface of these boxes, the highest first, stands above `level` at a place."""
         for top, u0, u1, w0, w1, k in near:
             if top <= level:
                 return False
             if u0 <= u <= u1 and w0 <= w <= w1:
-                facets = self._of(k)
-                su, sh, sw = self._shift[self._owner[k]]
+                owner, facets = self._owner[k], self._facets[k]
+                if facets is None or self._ready[k] is not self._occluders[owner].transform:
+                    facets = self._of(k)
+                su, sh, sw = self._shift[owner]
                 if facets.cover(u - su, w - sw, level - sh):
                     return True
         return False
@@ -225,7 +231,7 @@ class _Layer:
     def many(self, u: NDArray, w: NDArray, level: NDArray) -> NDArray[np.bool_]:
         """`covers` for many places (n,)."""
         covered = np.zeros(len(u), bool)
-        for k, places in self._grid.pairs(u, w, level):
+        for k, places in self.grid.pairs(u, w, level):
             left = places[~covered[places]]
             facets = self._of(k)
             su, sh, sw = self._shift[self._owner[k]]

@@ -94,7 +94,8 @@ class WetGround:
         if not self.levels and rate <= 0.0:
             return water
         for level in self.levels.values():
-            water = self.law.merge_one(water, level.at(x, y, z, self.ticks))
+            lies = level.at(x, y, z, self.ticks)
+            water = self.law.merge_one(water, lies) if water > 0.0 else lies
         rest = time - self.ticks * TICK
         if rest > 0.0 and (water > 0.0 or rate > 0.0):
             water = self.law.settle_one(water, rate * MM_PER_S, rest)

@@ -101,12 +101,14 @@ class WetLevel:
 
     def at(self, x: float, y: float, z: float, ticks: int) -> float:
         """mm at a place at a tick."""
+        if self._now is not None:
+            return self._now.at(x, z)
         if not self._stood:
             return self._current().at(x, z)
         if self._field is None:
             self._field = RainField(self.rows)
         water = self.tiles.at(x, z)
-        if ticks > self.since and (water > 0.0 or self._field):
+        if ticks > self.since:
             rate = self._field.rate(x, y, z) * MM_PER_S
             water = self.tiles.law.settle_one(water, rate, (ticks - self.since) * TICK)
         return water
