@@ -13,7 +13,7 @@ from tests.cloud_stage import CloudStage, cloud_stage, clouds, shape, sky_frame,
 from weather_ecs.frame import VeilData, ViewData
 from weather_ecs.gpu import cloud_pass
 from weather_ecs.gpu.cloud_hidden import OPAQUE, hidden_below
-from weather_ecs.gpu.cloud_scene import scene_of
+from weather_ecs.gpu.cloud_scene import left_by_haze, scene_of
 from weather_ecs.gpu.veil_list import rays
 from weather_ecs.physics.veil import rain_path
 
@@ -87,3 +87,8 @@ def test_the_picture_is_the_same(stage: CloudStage, monkeypatch: pytest.MonkeyPa
     # The rain leaves some of the clouds to be seen.
     assert (stage.cover(dry) > 0.02).mean() > 0.1
     assert np.abs(hidden - hidden[-1, 0]).max() > 4.0 / 255.0
+
+
+def test_a_cloud_that_is_all_haze_fades() -> None:
+    left = left_by_haze(np.array([0.0, 0.5, 0.9, 0.945, 0.99, 1.0], np.float32))
+    assert left == pytest.approx([1.0, 1.0, 1.0, 0.5, 0.0, 0.0], abs=1e-5)

@@ -19,6 +19,7 @@ from weather_ecs.gpu.cloud_programs import UNITS, camera_matrix
 from weather_ecs.gpu.cloud_scene import (
     CloudScene,
     haze_of,
+    left_by_haze,
     light_numbers,
     rows_of,
     scene_of,
@@ -137,7 +138,8 @@ class CloudPass:
         drawn, shares = order.update(scene, dt)
         is_real = np.zeros(len(scene.clouds), bool)
         is_real[plan.real] = True
-        self._drawn, self._shares, self._by_billboards = drawn, shares, is_real[drawn]
+        self._drawn, self._by_billboards = drawn, is_real[drawn]
+        self._shares = shares * left_by_haze(self._haze[drawn, 3])
         self._real = drawn[self._by_billboards]  # a row each, in the order of drawing
 
     def _fill(self, scene: CloudScene, store: CloudStore, taken: NDArray[np.intp]) -> None:

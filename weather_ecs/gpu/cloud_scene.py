@@ -14,6 +14,7 @@ from weather_ecs.physics import cloud_light, cloud_view
 from weather_ecs.physics.cloud_light import Surround
 
 REACH = 200_000.0  # m, beyond which no cloud is drawn
+LOST = 0.90, 0.99  # share of haze from which a cloud fades, and at which it is gone
 Floats = NDArray[np.float64]
 
 
@@ -88,6 +89,15 @@ def haze_of(view: ViewData, light: Surround, center: Floats) -> NDArray[np.float
         extinction = view.frame.fog.extinction
         haze[:, 3] = cloud_light.haze_share(center, view.position[1], extinction)
     return haze
+
+
+def left_by_haze(share: NDArray[np.float32]) -> NDArray[np.float32]:
+    """What is left of the opacity of clouds before which the air has this share of the light.
+
+    Of one that is all haze no outline may show against the sky, whose haze the host has painted.
+    """
+    t = np.clip((share - LOST[0]) / (LOST[1] - LOST[0]), 0.0, 1.0)
+    return np.asarray(1.0 - t * t * (3.0 - 2.0 * t), np.float32)
 
 
 def rows_of(
