@@ -71,10 +71,11 @@ class BoxGrid:
     def pairs(self, u: NDArray, w: NDArray, level: NDArray) -> list[tuple[int, NDArray[np.int64]]]:
         """Every box that lies over any of the places (n,) above its level, and those places."""
         places, boxes = [], []
+        first_i = np.floor(u * _OVER_FINEST).astype(np.int64)
+        first_j = np.floor(w * _OVER_FINEST).astype(np.int64)
+        tops, u0, u1, w0, w1 = self._columns
         for e in self._levels if len(u) else ():
-            over_cell = _OVER_FINEST * 0.5**e
-            i = np.floor(u * over_cell).astype(np.int64) + _OFFSET
-            j = np.floor(w * over_cell).astype(np.int64) + _OFFSET
+            i, j = (first_i >> e) + _OFFSET, (first_j >> e) + _OFFSET
             key = (e << 58) | (i << 29) | j
             cell = np.minimum(np.searchsorted(self._keys, key), len(self._keys) - 1)
             there = np.flatnonzero(self._keys[cell] == key)
@@ -83,9 +84,11 @@ class BoxGrid:
             place = np.repeat(there, counts)
             nth = np.arange(len(place)) - np.repeat(np.cumsum(counts) - counts, counts)
             box = self._members[np.repeat(self._starts[cell], counts) + nth]
-            top, u0, u1, w0, w1 = (column[box] for column in self._columns)
-            at_u, at_w = u[place], w[place]
-            over = (top > level[place]) & (u0 <= at_u) & (at_u <= u1) & (w0 <= at_w) & (at_w <= w1)
+            at = u[place]
+            over = np.flatnonzero((u0[box] <= at) & (at <= u1[box]))
+            place, box = place[over], box[over]
+            at = w[place]
+            over = np.flatnonzero((w0[box] <= at) & (at <= w1[box]) & (tops[box] > level[place]))
             places.append(place[over])
             boxes.append(box[over])
         if not any(map(len, boxes)):
