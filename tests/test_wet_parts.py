@@ -215,3 +215,36 @@ def test_a_copy_is_another_one_and_snow_does_not_rest():
     assert other.at(0.0, 0.0) > 5.0 * tiles.at(0.0, 0.0)
     tiles.settle(1.0)
     assert not tiles._resting.tiles and 0 < len(tiles) <= MOST_TILES
+
+
+@pytest.mark.parametrize("level", [-1, 0, 2])
+def test_places_lie_between_the_cells_of_now(level):
+    tiles, rng = WetTiles(level), np.random.default_rng(level + 1)
+    x, z = rng.uniform(-30.0, 30.0, (2, 300))
+    # Two rains, then none: the first tiles dry, rest and go while the others are still wet.
+    for seconds, area in (
+        (60.0, rows(-6, 3)),
+        (60.0, rows(9, -9, 40.0)),
+        (90.0, None),
+        (200.0, None),
+    ):
+        if isinstance(area, np.ndarray):
+            tiles.rain(area)
+        tiles.settle(seconds)
+        cell, places, water = tiles.arrays()
+        known = dict(zip(map(tuple, places.tolist()), water, strict=True))
+        dry = np.zeros((8, 8))
+
+        def of(i, j, known=known, dry=dry):
+            return known.get((i >> 3, j >> 3), dry)[j & 7, i & 7]
+
+        expected = []
+        for u, w in zip(x / cell - 0.5, z / cell - 0.5, strict=True):
+            i, j = math.floor(u), math.floor(w)
+            low = of(i, j) * (1 - u + i) + of(i + 1, j) * (u - i)
+            high = of(i, j + 1) * (1 - u + i) + of(i + 1, j + 1) * (u - i)
+            expected.append(low * (1 - w + j) + high * (w - j))
+        pairs = zip(x.tolist(), z.tolist(), strict=True)
+        np.testing.assert_allclose([tiles.at(*p) for p in pairs], expected, rtol=1e-5)
+        np.testing.assert_allclose(tiles.many(x, z), expected, rtol=1e-5)
+        assert max(expected) > 0.0
