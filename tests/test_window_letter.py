@@ -19,6 +19,7 @@ TABLE = [(5.5, -61.9)]
 OUT = [(6.0, -60.4), (6.0, -54.6)]  # through the door and down the steps
 WAY = [(-2.0, -57.0), (-5.0, -66.0), (-8.0, -86.0), (-9.5, -104.0), (-13.0, -124.0),
        (-19.0, -144.0), (-24.6, -159.4)]  # fmt: skip
+MAILBOX = [(-25.0, -160.0)]
 FARTHEST = 200  # px in one motion: the mouse must not meet the screen's edge
 
 
@@ -84,6 +85,7 @@ def test_a_letter_is_lost_and_another_one_delivered(walk: Walk) -> None:
     go(walk, OUT, 0.5)
     walk.hold("Shift_L")
     go(walk, WAY, 1.5)
+    go(walk, MAILBOX, 0.2)  # until the letter is in it
     walk.release("Shift_L")
     won = walk.until(on("end"), "the mailbox")
     assert won["letter"] == "delivered"
