@@ -13,7 +13,7 @@ from pathlib import Path
 
 from demo_game.game import Game
 from demo_game.place import layout
-from tools.stills import Stage, run, save_sheet
+from tools.stills import Stage, run_one, save_sheet
 
 USAGE = "usage: python -m tools.collision_sheets OUT.jpg hits|frames|puddles|lee"
 RAIN = "heavy"
@@ -125,15 +125,9 @@ def lee(stage: Stage, out: Path) -> None:
 SHEETS = {"hits": hits, "frames": frames, "puddles": puddles, "lee": lee}
 
 
-def draw(out: Path, arguments: list[str]) -> None:
-    """Render the sheet of a name; raises KeyError for a name that is none."""
-    SHEETS[arguments[0]](Stage(), out)
-
-
 def main(arguments: list[str]) -> int:
     """0, or 2 where an argument is missing or names no sheet."""
-    known = len(arguments) > 1 and arguments[1] in SHEETS
-    return run(arguments if known else [], USAGE, draw, least=2)
+    return run_one(arguments, USAGE, SHEETS)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from demo_game.camera import projection_matrix, view_matrix
 from demo_game.game import Game
 from demo_game.skies import DAY, seconds
-from tools.stills import ALONG_THE_PATH, Stage, run, save_sheet
+from tools.stills import ALONG_THE_PATH, Stage, run_one, save_sheet
 from weather_ecs.components import RainArea
 from weather_ecs.presets import CloudBank, WholeWeather
 
@@ -194,15 +194,9 @@ def _peaks(
 SHEETS = {"day": day, "halo": halo, "rainbow": rainbow, "strike": strike, "storm": storm}
 
 
-def draw(out: Path, arguments: list[str]) -> None:
-    """Render the sheet of a name; raises KeyError for a name that is none."""
-    SHEETS[arguments[0]](Stage(), out)
-
-
 def main(arguments: list[str]) -> int:
     """0, or 2 where an argument is missing or names no sheet."""
-    known = len(arguments) > 1 and arguments[1] in SHEETS
-    return run(arguments if known else [], USAGE, draw, least=2)
+    return run_one(arguments, USAGE, SHEETS)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -140,3 +140,15 @@ def run(
         return 2
     draw(Path(arguments[0]), list(arguments[1:]))
     return 0
+
+
+def run_one(
+    arguments: Sequence[str], usage: str, sheets: Mapping[str, Callable[[Stage, Path], None]]
+) -> int:
+    """The same of a script with sheets by name: `OUT NAME`; 2 where a name is missing or none."""
+
+    def draw(out: Path, names: list[str]) -> None:
+        sheets[names[0]](Stage(), out)
+
+    known = len(arguments) > 1 and arguments[1] in sheets
+    return run(arguments if known else [], usage, draw, least=2)

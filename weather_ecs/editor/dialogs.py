@@ -44,7 +44,7 @@ class Dialogs:
 def _unsaved(session: Session) -> None:
     if session.question is None:
         return
-    with _modal("Unsaved changes") as shown:
+    with Modal("Unsaved changes") as shown:
         if not shown:
             return
         imgui.text_wrapped(f"{session.document.name} has changes that are not saved.")
@@ -63,7 +63,7 @@ def _unsaved(session: Session) -> None:
 def _changed(session: Session) -> None:
     if not session.changed_outside or session.question is not None:
         return
-    with _modal("Changed on disk") as shown:
+    with Modal("Changed on disk") as shown:
         if not shown:
             return
         imgui.text_wrapped(
@@ -84,7 +84,7 @@ def _changed(session: Session) -> None:
 def _trouble(session: Session) -> None:
     if not session.trouble:
         return
-    with _modal("That did not work") as shown:
+    with Modal("That did not work") as shown:
         if not shown:
             return
         imgui.push_text_wrap_pos(_WIDE + 120.0)
@@ -101,7 +101,7 @@ def _trouble(session: Session) -> None:
             session.trouble = ""
 
 
-class _modal:
+class Modal:
     """A window over all others, in the middle, that is opened when it is first drawn."""
 
     def __init__(self, title: str) -> None:

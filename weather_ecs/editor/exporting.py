@@ -12,7 +12,7 @@ from imgui_bundle import imgui
 from weather_ecs.editor import export, theme
 from weather_ecs.editor.bound import caption
 from weather_ecs.editor.camera import OrbitCamera
-from weather_ecs.editor.dialogs import _modal
+from weather_ecs.editor.dialogs import Modal
 from weather_ecs.editor.document import Document
 from weather_ecs.editor.shared import Shared
 from weather_ecs.editor.studio import studio_of
@@ -130,7 +130,7 @@ class Exports:
             self._job = None
             shared.say(f"Not written: {_said(error)}", bad=True)
             return
-        with _modal("Export") as shown:
+        with Modal("Export") as shown:
             if shown:
                 imgui.text(self._path.name)
                 imgui.progress_bar(self._share, imgui.ImVec2(_WIDE, 0.0))
@@ -143,7 +143,7 @@ class Exports:
 
     def _draw_question(self, document: Document, shared: Shared) -> None:
         kind, choice = self.kind or STILL, self.choice
-        with _modal(TITLES[kind]) as shown:
+        with Modal(TITLES[kind]) as shown:
             if not shown:
                 return
             imgui.dummy(imgui.ImVec2(_WIDE, 1.0))
