@@ -32,6 +32,7 @@ bench: setup
 
 lint: .venv/.stamp-python
 	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
 clean:

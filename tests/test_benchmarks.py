@@ -135,9 +135,7 @@ def drawn(stage: Stage, model: Model) -> float:
 
 
 @pytest.mark.parametrize("kind", [RousseauRain, TariqRain])
-def test_larger_streaks_cover_more(
-    stage: Stage, keep: Keep, kind: Callable[..., BoxRain]
-) -> None:
+def test_larger_streaks_cover_more(stage: Stage, keep: Keep, kind: Callable[..., BoxRain]) -> None:
     rain = keep(kind(stage, 4000, 25.0))
     shares = []
     for size in (1.0, 2.0, 4.0):

@@ -115,9 +115,7 @@ def test_far_container_stands_at_the_nearest_point_and_fits_the_view() -> None:
     assert c.distance == pytest.approx(math.dist(observer, p))
     # All of the ellipse is in view, so its farthest points lie in the footprint's width and depth.
     t = np.linspace(0, 2 * math.pi, 400)
-    rim = ellipse.world(
-        np.stack([70 * np.cos(t), 45 * np.sin(t)], 1), AREA.center, AREA.heading
-    )
+    rim = ellipse.world(np.stack([70 * np.cos(t), 45 * np.sin(t)], 1), AREA.center, AREA.heading)
     along = np.array([math.cos(c.heading), -math.sin(c.heading)])
     across = np.array([math.sin(c.heading), math.cos(c.heading)])
     assert np.max((rim - p) @ along) == pytest.approx(c.reach[0], rel=0.01)

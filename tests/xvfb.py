@@ -87,9 +87,7 @@ class Display:
         )
         return done.stdout.strip()
 
-    def find_window(
-        self, process: subprocess.Popen[str], title: str, seconds: float = 90.0
-    ) -> str:
+    def find_window(self, process: subprocess.Popen[str], title: str, seconds: float = 90.0) -> str:
         """X id of the visible window with this title; fails as soon as the process ends."""
 
         def look() -> str | None:

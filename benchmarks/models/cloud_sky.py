@@ -74,4 +74,3 @@ def pitched(view: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
     turn[1:3, 1:3] = [[c, s], [-s, c]]
     pitched_view: NDArray[np.float64] = turn @ view
     return pitched_view
-

@@ -96,9 +96,7 @@ class RipplePass:
                     self._advance(view, surface, place, rains)
         self._forget()
 
-    def _advance(
-        self, view: ViewData, surface: RippleData, place: GridPlace, rains: bool
-    ) -> None:
+    def _advance(self, view: ViewData, surface: RippleData, place: GridPlace, rains: bool) -> None:
         key = (view.key, surface.key)
         grid = self._grids.get(key)
         if grid is not None and grid.cells != place.cells:
