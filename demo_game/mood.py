@@ -21,6 +21,7 @@ STATES = {
     "sleet": 0.75, "light_snow": 0.75, "heavy_snow": 0.75, "blizzard": 0.75, "fog": 0.0,
 }  # fmt: skip
 CLIMATE = "climate"  # in place of a preset's name while the climate runs
+METAR = "metar"  # in place of a preset's name until the report is read
 
 
 @dataclass(frozen=True)

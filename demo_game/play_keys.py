@@ -18,22 +18,22 @@ def play_key(name: str, game: Game, shown: Shown) -> str | None:
     """Do what a key means; returns a line for the player, or None where it means nothing here."""
     name = SHIFTED.get(name, name)
     if name in PRESET_KEYS:
-        return game.choose_preset(PRESET_KEYS[name])
+        return game.changer.choose_preset(PRESET_KEYS[name])
     if name in ("BRACKETLEFT", "BRACKETRIGHT"):
-        return game.blow(1 if name == "BRACKETRIGHT" else -1)
+        return game.changer.blow(1 if name == "BRACKETRIGHT" else -1)
     if name in ("COMMA", "PERIOD"):
-        return game.turn_wind(1 if name == "COMMA" else -1)
+        return game.changer.turn_wind(1 if name == "COMMA" else -1)
     if name == "F":
         game.player.switch_flight()
         return "You fly: Space is up, Shift is fast" if game.player.flying else "You walk"
     if name == "L":
-        return game.strike()
+        return game.changer.strike()
     if name == "V":
-        return game.next_whole()
+        return game.changer.next_whole()
     if name == "B":
-        return game.next_whole(-1)
+        return game.changer.next_whole(-1)
     if name == "C":
-        return game.run_climate()
+        return game.changer.run_climate()
     if name == "T":
         game.sky.next()
         return game.sky.name.capitalize()

@@ -6,11 +6,13 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from demo_game.cloudscape import STEADY, all_layers, light_layers, steady_layers
 from demo_game.entities import direction, fog_overhead
-from demo_game.mood import AIRS, Mood, preset_mood
+from demo_game.mood import AIRS, METAR, Mood, preset_mood
 from demo_game.render import Air, Environment, RainPatch
 from demo_game.skies import light_of, under_cloud
-from weather_ecs.presets import PRESETS
+from weather_ecs.components import SkyLayer
+from weather_ecs.presets import PRESETS, SKIES
 
 if TYPE_CHECKING:
     from demo_game.game import Game
@@ -46,6 +48,18 @@ class Surroundings:
     def mood(self, game: Game) -> Mood:
         """What the weather follows."""
         return replace(game.mood.current, visibility=self.scenery(game).visibility)
+
+    def layers(self, game: Game) -> list[SkyLayer]:
+        """The sky: on the tours that are compared it drifts the same whatever the wind, and costs
+        little if that is asked for.
+        """
+        if game.mood.preset not in (*PRESETS, *SKIES, METAR):
+            return []  # a file has its own
+        if not game.is_compared:
+            return all_layers()
+        shower = game.entities.shower
+        shower.drift, shower.velocity = 0.0, STEADY
+        return steady_layers() if game.has_shadows else light_layers()
 
     def _overcast(self, game: Game) -> float:
         mood = self.scenery(game)
@@ -124,8 +138,8 @@ class Surroundings:
     def _patches(self, game: Game, mood: Mood) -> list[RainPatch]:
         """Where it rains, as the renderer has it."""
         areas = game.entities.rates(mood)
-        if game.file is not None:
-            areas += [(area, area.rain_rate) for area in game.file.areas]
+        if game.given.file is not None:
+            areas += [(area, area.rain_rate) for area in game.given.file.areas]
         whole = game.wholes.area(game.weather)
         if whole is not None:
             areas.append((whole, whole.rain_rate))

@@ -12,12 +12,13 @@ import moderngl
 import pytest
 
 from demo_game.cloudscape import SETTLED
-from demo_game.game import OPENING, Game
+from demo_game.game import Game
 from demo_game.mood import CLIMATE, STATES
 from demo_game.place import Place
 from demo_game.play_keys import play_key
 from demo_game.settings import Settings
 from demo_game.tours import make_tour
+from demo_game.weather_changer import OPENING
 from weather_ecs.components import Climate, Cloud, SkyLayer
 from weather_ecs.errors import WeatherFileError
 from weather_ecs.presets import PRESETS
@@ -51,7 +52,7 @@ def test_a_cloud_hangs_over_each_rain_and_goes_with_it(game: Game) -> None:
     for _ in range(20):
         game.update(0.5)
     assert clouds_of(game)[1].position[0] > x + 10.0  # carried off with its shower
-    game.choose_preset("clear")
+    game.changer.choose_preset("clear")
     for _ in range(60):
         game.update(0.1)
     assert [cloud.growth for cloud in clouds_of(game)] == [0.0, 0.0]
@@ -60,12 +61,12 @@ def test_a_cloud_hangs_over_each_rain_and_goes_with_it(game: Game) -> None:
 def test_presets_turn_the_sky_and_it_comes_to_rest(game: Game) -> None:
     game.update(0.1)
     assert game.weather.stats.state == OPENING[0]
-    game.choose_preset("heavy")
+    game.changer.choose_preset("heavy")
     for _ in range(int(SETTLED)):
         game.update(1.0)
     assert game.weather.stats.state == STATES["heavy"]
     before = game.weather.stats.clouds
-    game.choose_preset("fog")
+    game.changer.choose_preset("fog")
     for _ in range(int(SETTLED) + 10):
         game.update(1.0)
     assert game.weather.stats.state == STATES["fog"]

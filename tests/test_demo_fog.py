@@ -113,7 +113,7 @@ def test_visibility_glides_and_the_scene_keeps_to_the_weathers_air(
     ctx: moderngl.Context, place: Place
 ) -> None:
     game = Game(ctx, Settings(quality="low"), place=place, preset="clear")
-    game.choose_preset("fog")
+    game.changer.choose_preset("fog")
     before, lost = game.weather.sample(game.pose.eye), []
     for _ in range(270):
         game.update(1 / 60)

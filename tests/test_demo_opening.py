@@ -6,10 +6,11 @@ import math
 
 import moderngl
 
-from demo_game.game import OPENING, Game
+from demo_game.game import Game
 from demo_game.mood import preset_mood
 from demo_game.place import Place
 from demo_game.settings import Settings
+from demo_game.weather_changer import OPENING
 
 
 def test_a_game_opens_on_sun_and_a_shower_ahead(ctx: moderngl.Context) -> None:
@@ -36,7 +37,7 @@ def test_a_game_opens_on_sun_and_a_shower_ahead(ctx: moderngl.Context) -> None:
     assert abs(math.atan2(-x, z) + aside) < math.radians(80.0)
     assert abs(math.atan2(-x, z) - aside) < math.radians(20.0)
     assert game.mood.current.state == OPENING[0] < preset_mood("heavy", 0.0).state
-    game.choose_preset("moderate")
+    game.changer.choose_preset("moderate")
     for _ in range(300):
         game.update(1 / 60)
     assert game.mood.current.state == preset_mood("moderate", 0.0).state

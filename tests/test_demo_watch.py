@@ -95,7 +95,7 @@ def test_the_walk_has_the_weather_of_its_file(game: Game) -> None:
 
 def test_what_is_edited_is_taken_and_the_rest_goes_on(game: Game, path: Path) -> None:
     pass_time(game)
-    file = game.file
+    file = game.given.file
     assert file is not None and file.readings == 1
     [layer] = [each for _, each in esper.get_component(SkyLayer) if each.base == 900.0]
     moved = file.areas[0].center
@@ -133,12 +133,12 @@ def _names() -> list[str]:
 )
 def test_a_broken_state_keeps_the_last_good_one_and_says_so(game, path, old, new, words) -> None:
     pass_time(game)
-    before = [id(area) for area in game.file.areas]
+    before = [id(area) for area in game.given.file.areas]
     write(path, TEXT.replace(old, new))
     pass_time(game)
-    assert [id(area) for area in game.file.areas] == before
+    assert [id(area) for area in game.given.file.areas] == before
     assert "not good" in game.take_news()
-    lines = game.file.lines()
+    lines = game.given.file.lines()
     assert lines[0].startswith("not good: evening.toml") and len(lines) <= 3
     assert all(word in " ".join(lines) for word in words)
     assert all(len(line) <= 34 for line in lines)
@@ -146,23 +146,24 @@ def test_a_broken_state_keeps_the_last_good_one_and_says_so(game, path, old, new
     assert game.take_news() is None  # said once
     write(path, TEXT.replace("temperature = -5", "temperature = 3"))
     pass_time(game)
-    assert game.file.problem == "" and game.file.lines() == ["watching evening.toml, read again…"]
+    assert game.given.file.problem == ""
+    assert game.given.file.lines() == ["watching evening.toml, read again…"]
 
 
 def test_a_file_that_is_deleted_and_comes_back(game: Game, path: Path) -> None:
     path.unlink()
     pass_time(game)
-    assert game.file is not None and "no such file" in game.file.problem
+    assert game.given.file is not None and "no such file" in game.given.file.problem
     path.write_text(TEXT.replace("rain_rate = 8", "rain_rate = 9"))
     pass_time(game)
-    assert game.file.problem == "" and game.file.areas[0].rain_rate == 9.0
+    assert game.given.file.problem == "" and game.given.file.areas[0].rain_rate == 9.0
 
 
 def test_keys_leave_the_file(game: Game) -> None:
     pass_time(game)
-    game.choose_preset("heavy")
+    game.changer.choose_preset("heavy")
     pass_time(game, 6.0)
-    assert game.file is None and game.state == "heavy"
+    assert game.given.file is None and game.state == "heavy"
     assert game.areas[0].rain_rate > 1.0
     assert all(area.radii != (40.0, 30.0) for area in game.areas)
     assert game.mood.current.lent == 0.0
@@ -192,7 +193,7 @@ def test_what_the_walk_saves_it_can_walk_in(ctx, place: Place, tmp_path: Path) -
     assert second.weather.stats.state == 1.0
     assert math.isfinite(second.mood.current.wind_speed)
     assert [type(area) for area in second.areas[:2]] == [RainArea, RainArea]
-    assert second.file is not None and second.file.lines() == []
+    assert second.given.file is not None and second.given.file.lines() == []
     second.close()
 
 

@@ -71,7 +71,7 @@ def test_the_games_own_weather_stands_aside(context: object, place: Place) -> No
         for _ in range(3):
             game.update(0.1)
         assert game.state.startswith("EHAM")
-        assert game.report is not None
+        assert game.given.report is not None
         assert game.entities.area.rain_rate == 0.0
         assert game.entities._wind.speed == 0.0
         assert not any(layer.skies[-1].count for layer in game.scape.layers)
@@ -81,7 +81,7 @@ def test_the_games_own_weather_stands_aside(context: object, place: Place) -> No
         mean = (here.wind[0] ** 2 + here.wind[2] ** 2) ** 0.5
         assert 6.0 < mean < 20.0
         assert here.wind[2] < 0.0 < here.wind[0]  # from the south-west
-        game.choose_preset("heavy")  # and back to the game's own
+        game.changer.choose_preset("heavy")  # and back to the game's own
         for _ in range(80):
             game.update(0.1)
         assert game.state == "heavy"
@@ -100,7 +100,7 @@ def test_a_whole_weather_comes_smoothly_out_of_a_preset(context: object, place: 
     game = Game(context, Settings(quality="low"), place=place, preset="clear")
     try:
         game.update(0.1)
-        assert "steady rain" in game.choose_whole("steady_rain", 10.0).lower()
+        assert "steady rain" in game.changer.choose_whole("steady_rain", 10.0).lower()
         rates, moods = [], []
         for _ in range(110):
             game.update(0.1)
@@ -142,7 +142,7 @@ def test_a_called_strike_lights_the_scene_and_is_heard(context: object, place: P
         game.draw(target)
         dark = np.frombuffer(target.read(components=3), "u1").astype("f4").mean()
         assert game.surroundings.environment(game).air is None
-        game.strike()
+        game.changer.strike()
         bright = 0.0
         for _ in range(8):
             game.update(0.02)

@@ -31,7 +31,7 @@ def set_weather(game: Game, wind: float, rate: float | None = None) -> None:
 
 def figure_at(game: Game) -> Point:
     """Where the figure stands, m."""
-    x, y, z, _ = game.place.figure_position(game._scene_time)
+    x, y, z, _ = game.place.figure_position(game.scene_time)
     return x, y, z
 
 

@@ -36,7 +36,7 @@ STORM_FROM, STORM_TO = (-600.0, -9500.0), (0.0, -2500.0)  # (x, z) in m of its r
 def day(stage: Stage, out: Path) -> None:
     """Every two hours of a day in March under a full moon, looking west."""
     game = stage.game(preset="clear")
-    game.choose_whole("fair_cumulus", 0.0)
+    game.changer.choose_whole("fair_cumulus", 0.0)
     game.sky.atmosphere.latitude = LATITUDE
     stage.look(*WEST)
     for _ in range(120):
@@ -56,7 +56,7 @@ def day(stage: Stage, out: Path) -> None:
 def halo(stage: Stage, out: Path) -> None:
     """The sun through cirrostratus."""
     game = stage.game(preset="clear")
-    game.choose_whole("clear", 0.0)
+    game.changer.choose_whole("clear", 0.0)
     game.weather.change_to(ICE, 0.0)
     game.sky.be("afternoon")
     game.settings.field_of_view = 90.0
@@ -72,7 +72,7 @@ def halo(stage: Stage, out: Path) -> None:
 def rainbow(stage: Stage, out: Path) -> None:
     """Both bows in a shower far off, opposite a low sun."""
     game = stage.game(preset="clear")
-    game.choose_whole("showers", 0.0)
+    game.changer.choose_whole("showers", 0.0)
     game.sky.be("afternoon")
     game.sky.atmosphere.time = seconds("2025-03-13T16:10:00Z")
     game.settings.field_of_view = 100.0
@@ -95,7 +95,7 @@ def rainbow(stage: Stage, out: Path) -> None:
 def strike(stage: Stage, out: Path) -> None:
     """Five successive frames, a thirtieth of a second each."""
     game = stage.game(preset="clear")
-    game.choose_whole("thunderstorm", 0.0)
+    game.changer.choose_whole("thunderstorm", 0.0)
     game.sky.be("evening")
     stage.look(*ALONG_THE_PATH)
     stage.settle(game)
@@ -110,7 +110,7 @@ def strike(stage: Stage, out: Path) -> None:
 def storm(stage: Stage, out: Path) -> None:
     """From fair cumulus to a thunderstorm, in twelve stills."""
     game = stage.game(preset="clear")
-    game.choose_whole("fair_cumulus", 0.0)
+    game.changer.choose_whole("fair_cumulus", 0.0)
     game.sky.be("afternoon")
     stage.look(*ALONG_THE_PATH)
     for _ in range(160):

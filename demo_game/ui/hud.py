@@ -9,8 +9,8 @@ from typing import Any
 import pyglet
 
 from demo_game.compass import compass
-from demo_game.game import MARKS
 from demo_game.ui.theme import MARGIN, PADDING, TEXT_DIM, Frame, Layer, Rect, Text
+from demo_game.weather_changer import MARKS
 from weather_ecs import Sample
 
 ROWS = (

@@ -119,7 +119,7 @@ class Overlay:
         if self._since >= INTERVAL:
             self._since = 0.0
             mood = game.mood.current
-            view.show_strip(game.history)
+            view.show_strip(game.changer.history)
             view.show(
                 readout_values(
                     here=game.weather.sample(game.pose.eye),
@@ -139,14 +139,14 @@ class Overlay:
 
 def _report(game: Game) -> list[str]:
     """What was understood of a METAR report, or what is the matter with a file."""
-    if game.file is not None:
-        return game.file.lines()
-    return [] if game.report is None else summary(game.report)
+    if game.given.file is not None:
+        return game.given.file.lines()
+    return [] if game.given.report is None else summary(game.given.report)
 
 
 def _hour(game: Game) -> str:
     """The time of day: by its name, or as the file has it."""
-    if game.file is not None and game.file.content.atmosphere is not None:
+    if game.given.file is not None and game.given.file.content.atmosphere is not None:
         minutes = int(float(game.sky.atmosphere.time) // 60.0) % 1440
         return f"{minutes // 60:02}:{minutes % 60:02} UTC"
     return game.sky.name
