@@ -12,6 +12,9 @@ from weather_ecs.physics.rain_ahead import FAR, bow_strength, rain_along
 from weather_ecs.physics.stars import FAINTEST, stars
 
 
+CEILING = 900.0  # m, of the areas
+
+
 def separation(a: tuple[float, float], b: tuple[float, float]) -> float:
     """Degrees between two places (right ascension in hours, declination in degrees)."""
     (a1, d1), (a2, d2) = ((math.radians(15.0 * h), math.radians(d)) for h, d in (a, b))
@@ -65,20 +68,33 @@ def areas(*rows: tuple[float, ...]) -> np.ndarray:
             heading,
             rate,
         )
+    made["ceiling"] = CEILING
     return made
 
 
 def test_rain_along_a_look_is_the_chord_of_the_ellipse() -> None:
-    east, north = np.array([1.0, 0.0]), np.array([0.0, -1.0])
+    east, north = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, -1.0])
+    here = (0.0, 2.0, 0.0)
     looks = np.stack([east, north])
-    assert np.allclose(rain_along(areas((1000, 0, 200, 100, 0, 1.0)), (0, 0), looks), (400, 0))
+    assert np.allclose(rain_along(areas((1000, 0, 200, 100, 0, 1.0)), here, looks), (400, 0))
     turned = areas((1000, 0, 200, 100, math.pi / 2, 1.0))
-    assert rain_along(turned, (0, 0), east) == pytest.approx(200.0)
+    assert rain_along(turned, here, east) == pytest.approx(200.0)
     within = areas((0, 0, 200, 100, 0, 10.0))
-    assert np.allclose(rain_along(within, (0, 0), looks), np.array((200, 100)) * 10.0**0.63)
-    assert rain_along(areas((-1000, 0, 200, 100, 0, 1.0)), (0, 0), east) == 0.0  # behind
-    assert rain_along(areas((FAR + 500, 0, 200, 100, 0, 1.0)), (0, 0), east) == 0.0
-    assert rain_along(areas((1000, 0, 200, 100, 0, 0.0)), (0, 0), east) == 0.0
+    assert np.allclose(rain_along(within, here, looks), np.array((200, 100)) * 10.0**0.63)
+    assert rain_along(areas((-1000, 0, 200, 100, 0, 1.0)), here, east) == 0.0  # behind
+    assert rain_along(areas((FAR + 500, 0, 200, 100, 0, 1.0)), here, east) == 0.0
+    assert rain_along(areas((1000, 0, 200, 100, 0, 0.0)), here, east) == 0.0
+
+
+def test_rain_along_a_look_ends_at_the_ceiling() -> None:
+    """One who flies over the rain has it below the horizon only, and none overhead."""
+    wide = areas((0, 0, 3000, 3000, 0, 1.0))
+    up, down = (np.array([math.cos(a), math.sin(a), 0.0]) for a in (math.pi / 4, -math.pi / 4))
+    assert rain_along(wide, (0.0, 100.0, 0.0), up) == pytest.approx(CEILING - 100.0)
+    above = (0.0, CEILING + 500.0, 0.0)
+    assert rain_along(wide, above, up) == 0.0
+    assert rain_along(wide, above, np.array([1.0, 0.0, 0.0])) == 0.0
+    assert rain_along(wide, above, down) == pytest.approx(3000.0 - 500.0)
 
 
 def test_a_bow_grows_with_the_rain_up_to_its_full_light() -> None:

@@ -51,10 +51,7 @@ class SkyRings:
         turn = np.linspace(0.0, math.pi, PARTS + 1)[:, None]
         c, s = math.cos(math.radians(42.0)), math.sin(math.radians(42.0))
         looks = c * axis + s * (np.cos(turn) * right + np.sin(turn) * up)
-        flat = looks[:, (0, 2)]
-        flat /= np.maximum(np.linalg.norm(flat, axis=1, keepdims=True), 1e-6)
-        x, _, z = view.position
-        strength = bow_strength(rain_along(view.frame.areas, (x, z), flat))
+        strength = bow_strength(rain_along(view.frame.areas, view.position, looks))
         strength = np.convolve(np.pad(strength, 2, mode="edge"), np.full(5, 0.2), mode="valid")
         light = BOW_LIGHT * data.rainbow * float(sun_light(data).max()) * self._brightest
         peak = float(strength.max())
