@@ -39,6 +39,10 @@ SINCE = {
     "glClearBufferData": 430,
     "glBindBuffersBase": 440,
     "glBindSamplers": 440,
+    "glTextureBarrier": 450,
+    "glTextureParameteri": 450,
+    "glGetTextureParameteriv": 450,
+    "glGetTextureLevelParameteriv": 450,
 }
 
 
@@ -125,6 +129,10 @@ class GL:
     glTexImage2D: Callable[[U, I, I, I, I, I, U, U, P], None]
     glTexImage3D: Callable[[U, I, I, I, I, I, I, U, U, P], None]
     glCopyTexSubImage2D: Callable[[U, I, I, I, I, I, I, I], None]
+    glTextureBarrier: Callable[[], None] | None
+    glTextureParameteri: Callable[[U, U, I], None] | None
+    glGetTextureParameteriv: Callable[[U, U, P], None] | None
+    glGetTextureLevelParameteriv: Callable[[U, I, U, P], None] | None
     # framebuffers
     glBindFramebuffer: Callable[[U, U], None]
     glGenFramebuffers: Callable[[I, P], None]

@@ -13,6 +13,7 @@ from weather_ecs.gpu.cloud_hidden import Window, opaque_below
 from weather_ecs.gpu.cloud_pass import Between, CloudPass
 from weather_ecs.gpu.collision_maps import CollisionMaps
 from weather_ecs.gpu.depth import DepthCopy
+from weather_ecs.gpu.depth_lent import LentDepth
 from weather_ecs.gpu.fog_pass import FogPass
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
@@ -60,10 +61,11 @@ class Layers:
         self._sky: SkyPass | None = None
         self._veil = keep(VeilPass(ctx, shaders))
         self._depth = keep(DepthCopy(ctx, gl))
+        self._lent = keep(LentDepth(ctx, gl))
         # Stands for the depth of a host that has none: nothing in the way anywhere.
         nothing = np.ones(1, np.float32).tobytes()
         self._no_depth = keep(ctx.texture((1, 1), 1, data=nothing, dtype="f4"))
-        self._scene_depth: moderngl.Texture | None = None  # as copied in this draw
+        self._scene_depth: moderngl.Texture | None = None  # as found in this draw
         self._counter = keep(PrimitiveCounter(gl))
 
     @property
@@ -81,6 +83,12 @@ class Layers:
     def draw(self, view: ViewData, viewport: tuple[int, int, int, int], sheltered: bool) -> None:
         """Draw what there is; where it is `sheltered`, the observer has a collision map."""
         self._scene_depth = None
+        try:
+            self._draw(view, viewport, sheltered)
+        finally:
+            self._lent.give_back()
+
+    def _draw(self, view: ViewData, viewport: tuple[int, int, int, int], sheltered: bool) -> None:
         clouds, bolts = self._clouds.draws(view), self._bolts.draws(view)
         self._draw_sky(view, viewport[3])
         self._draw_fog(view)
@@ -124,10 +132,12 @@ class Layers:
 
     # One after another
 
-    def _copy_depth(self) -> moderngl.Texture:
-        """The scene's depth, copied once in a draw: nothing here writes depth."""
+    def _depth_to_read(self) -> moderngl.Texture:
+        """The scene's depth, lent or copied once in a draw: nothing here writes depth."""
         if self._scene_depth is None:
-            self._scene_depth = self._depth.copy(self._guard) or self._no_depth
+            self._guard.bind_framebuffer()
+            found = self._lent.take(self._guard) or self._depth.copy(self._guard)
+            self._scene_depth = found or self._no_depth
         return self._scene_depth
 
     def _draw_sky(self, view: ViewData, height: int) -> None:
@@ -154,7 +164,7 @@ class Layers:
     def _draw_fog(self, view: ViewData) -> None:
         if not self._fog.draws(view):
             return
-        depth = self._copy_depth()
+        depth = self._depth_to_read()
         self._ctx.enable_only(moderngl.BLEND)
         self._gl.glDepthMask(0)
         self._fog.draw(view, depth)
@@ -165,7 +175,7 @@ class Layers:
         veils = [veil for veil in view.veils if (veil.span[1] < y) is below]
         if not veils:
             return
-        depth = self._copy_depth()
+        depth = self._depth_to_read()
         self._ctx.enable_only(moderngl.BLEND)
         self._gl.glDepthMask(0)
         has_depth = depth is not self._no_depth
@@ -175,7 +185,7 @@ class Layers:
         self, view: ViewData, viewport: tuple[int, int, int, int], bolts: bool
     ) -> None:
         parted = self._bolts.distance(view) if bolts else 0.0
-        self._clouds.paint(view, self._copy_depth, viewport, parted)
+        self._clouds.paint(view, self._depth_to_read, viewport, parted)
         self._guard.bind_framebuffer()
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
@@ -194,7 +204,7 @@ class Layers:
     def _draw_ripples(self, view: ViewData) -> None:
         if not self._ripples.draws:
             return
-        depth = self._copy_depth()
+        depth = self._depth_to_read()
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
         self._ripples.draw(view, depth)
