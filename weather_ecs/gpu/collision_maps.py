@@ -10,7 +10,7 @@ from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.heightmap import Heightmap
 from weather_ecs.gpu.occluder_meshes import OccluderMeshes
 from weather_ecs.gpu.rain_blocks import SHELTER
-from weather_ecs.gpu.rain_pass import SHELTER_UNIT
+from weather_ecs.gpu.rain_pass import MOTION_UNIT, SHELTER_UNIT
 from weather_ecs.gpu.shader_loader import ShaderLoader
 from weather_ecs.gpu.weather_heightmap import WeatherHeightmap
 from weather_ecs.physics.footprint import fall_speed_over, landing_wind
@@ -63,12 +63,13 @@ class CollisionMaps:
             # Nothing falls: the map stays as it was, for what is still wet.
             (x, z), speed = heightmap.footprint.slope, 1.0
             wind = (x, 0.0, z)
-        if heightmap.capture(occluders, view.position, reach, wind, speed, look.extent):
+        time = view.frame.time
+        if heightmap.capture(occluders, view.position, reach, wind, speed, look.extent, time):
             self._meshes.keep(occluders)
         heightmap.fill(self._block)
         self._block.upload()
         self._block.bind()
-        heightmap.texture.use(SHELTER_UNIT)
+        self.use(view.key)
         return True
 
     def bind(self) -> None:
@@ -76,8 +77,9 @@ class CollisionMaps:
         self._block.bind()
 
     def use(self, key: int) -> None:
-        """Bind an observer's map again."""
+        """Bind an observer's map."""
         self._maps[key].texture.use(SHELTER_UNIT)
+        self._maps[key].motion.use(MOTION_UNIT)
 
     def forget(self, key: int) -> None:
         """Give back the map of an observer who is gone."""

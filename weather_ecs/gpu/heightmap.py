@@ -18,6 +18,7 @@ from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.occluder_meshes import OccluderMeshes
+from weather_ecs.gpu.occluder_motion import OccluderMotion
 from weather_ecs.physics.footprint import (
     Footprint,
     SlopeFollower,
@@ -31,6 +32,7 @@ __all__ = ["Footprint", "Heightmap", "fall_speed_of", "footprint"]
 _log = logging.getLogger("weather_ecs")
 
 # From [0, 1] to clip space, where the depth runs the same way.
+STILL = 128.0 / 255.0  # of a channel of velocities, see physics/ride.py
 CLIP = np.array([[2.0, 0, 0, -1.0], [0, 2.0, 0, -1.0], [0, 0, 2.0, -1.0], [0, 0, 0, 1.0]])
 
 
@@ -50,6 +52,13 @@ class Heightmap:
         # What does not move, without what does.
         self.static_texture, self._static_target = self._layer()
         self.texture, self._target = self._layer()
+        # Velocities of what moves, over the same depth; see shaders/motion.glsl.
+        self.motion = ctx.texture((size, size), 4)
+        self.motion.filter = moderngl.NEAREST, moderngl.NEAREST
+        self.motion.repeat_x = self.motion.repeat_y = False
+        self._motion_target = ctx.framebuffer([self.motion], self.texture)
+        self._motion = OccluderMotion()
+        self._swept = False  # nothing moves in the texture
         self._seen: tuple[OccluderData, ...] | None = None
         self._still: list[OccluderData] | None = None
         self._moving: list[OccluderData] = []
@@ -72,24 +81,28 @@ class Heightmap:
         wind: tuple[float, float, float],
         fall_speed: float,
         extent: float = 1.25,
+        time: float = 0.0,
     ) -> bool:
         """Bring the map up to date; draws only what has changed. True if anything was drawn.
 
+        `time`, s, is the weather's: how fast things move is told from it.
         Leaves the bound framebuffer, depth test, mask and culling changed: the caller restores.
         """
         before = self.footprint
         slope = self._slope.follow(fall_slope(wind, fall_speed))
         place = footprint(position, reach, wind, fall_speed, self.size, before, extent, slope)
         # An occluder that has not changed is the same object, and lists compare by identity.
-        if occluders is self._seen and place == before and not self._callbacks:
+        rests = self._motion.came_to_rest(time)
+        if occluders is self._seen and place == before and not (self._callbacks or rests):
             return False
         self._seen = occluders
         still = [o for o in occluders if not o.dynamic and o.key not in self._broken]
         moving = [o for o in occluders if o.dynamic and o.key not in self._broken]
         fresh = place != before or still != self._still
         self._callbacks = any(o.draw is not None for o in moving)
-        if not fresh and moving == self._moving and not self._callbacks:
+        if not fresh and moving == self._moving and not (self._callbacks or rests):
             return False
+        self._motion.follow(moving, time)
         self.footprint = place
         self._prepare(self._static_target)
         if fresh:
@@ -97,9 +110,13 @@ class Heightmap:
             self._draw(still, place, self._static_target)
             self._still = still
             self.static_captures += 1
+        if self._motion.moves or not self._swept:
+            # Before the depth is copied: it is cleared, too.
+            self._motion_target.clear(STILL, STILL, STILL, 1.0, depth=1.0)
         self._copy_static()
         self._prepare(self._target)
-        self._draw(moving, place, self._target)
+        self._draw(moving, place, self._target, self._motion if self._motion.moves else None)
+        self._swept = not self._motion.moves
         self._moving = moving
         self.captures += 1
         return True
@@ -117,10 +134,13 @@ class Heightmap:
         self._ctx.depth_func = "<="
 
     def _draw(
-        self, occluders: list[OccluderData], place: Footprint, target: moderngl.Framebuffer
+        self,
+        occluders: list[OccluderData],
+        place: Footprint,
+        target: moderngl.Framebuffer,
+        motion: OccluderMotion | None = None,
     ) -> None:
         to_map = CLIP @ place.matrix()
-        self._meshes.draw([o for o in occluders if o.draw is None], to_map)
         for occluder in occluders:
             if occluder.draw is None:
                 continue
@@ -133,6 +153,9 @@ class Heightmap:
             # Whatever the game's code has bound or switched on ends here.
             self._guard.reset()
             self._prepare(target)
+        if motion is not None:
+            self._prepare(self._motion_target)
+        self._meshes.draw([o for o in occluders if o.draw is None], to_map, motion)
 
     def fill(self, block: BlockBuffer) -> None:
         """Write what shaders need of this map into a block `Shelter`."""
@@ -145,5 +168,6 @@ class Heightmap:
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
-        for thing in (self._target, self.texture, self._static_target, self.static_texture):
+        targets = self._motion_target, self._target, self._static_target
+        for thing in (*targets, self.motion, self.texture, self.static_texture):
             thing.release()

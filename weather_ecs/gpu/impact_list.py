@@ -22,7 +22,7 @@ IMPACT_DTYPE = np.dtype(
         ("speed", "f4"),  # m/s
         ("weight", "f4"),  # real drops that it stands for
         ("seed", "f4"),  # in [0, 1)
-        ("unused", "f4"),
+        ("ride", "f4"),  # velocity of what was hit, see physics/ride.py
     ]
 )
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import moderngl
 
 from weather_ecs.frame import SNOW, ViewData
-from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass, drops_used
+from weather_ecs.gpu.rain_pass import MOTION_UNIT, SHELTER_UNIT, RainPass, drops_used
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 
 
@@ -30,8 +30,9 @@ class ImpactReader:
         if self._listed:
             key = replace(key, defines=(*key.defines, "IMPACT_LIST"))
         self.program = shaders.program(key)
-        if "shelter_map" in self.program:
-            self.program["shelter_map"] = SHELTER_UNIT
+        for sampler, unit in (("shelter_map", SHELTER_UNIT), ("shelter_motion", MOTION_UNIT)):
+            if sampler in self.program:
+                self.program[sampler] = unit
         if not self._listed:
             rain.add_reader(name, self.program)
         self._arrays: dict[int, tuple[moderngl.Buffer, moderngl.VertexArray]] = {}

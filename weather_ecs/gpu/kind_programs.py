@@ -21,6 +21,7 @@ FAR_FLAKE = replace(FLAKE, defines=("FAR",))
 COMPUTE = ProgramKey(compute="rain_step.comp")
 FEEDBACK = ProgramKey(vertex="rain_step.vert", varyings=("out_position", "out_velocity"))
 SHELTER_UNIT = 1
+MOTION_UNIT = 5  # velocities of what rain hits
 PICTURES_UNIT = 0
 
 

@@ -3,23 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any, TypeAlias
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.frame import OccluderData
+from weather_ecs.gpu.occluder_motion import OccluderMotion
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 
 DRAW = ProgramKey(vertex="occluder.vert", fragment="occluder.frag")
-MATRIX_BYTES = 64
+MOTION = ProgramKey(vertex="occluder.vert", fragment="occluder.frag", defines=("MOTION",))
+MATRIX_BYTES, MOTION_BYTES = 64, 48
+
+_Name: TypeAlias = tuple[int, int, bool]  # of vertices, of indices; with velocities
 
 
 class _Mesh:
-    """One mesh, and room for the matrices of those that share it."""
+    """One mesh, and room for the matrices of those that share it; `moving`: and for velocities."""
 
     def __init__(
-        self, ctx: moderngl.Context, program: moderngl.Program, occluder: OccluderData
+        self,
+        ctx: moderngl.Context,
+        program: moderngl.Program,
+        occluder: OccluderData,
+        moving: bool = False,
     ) -> None:
         # Holding the arrays keeps their identities, by which meshes are found, from being reused.
         self.arrays = (occluder.vertices, occluder.indices)
@@ -27,7 +36,7 @@ class _Mesh:
         low, high = points.min(axis=0), points.max(axis=0)
         self.center = (0.5 * (low + high)).astype(np.float64)
         self.radius = 0.5 * float(np.linalg.norm(high - low))
-        self._ctx, self._program = ctx, program
+        self._ctx, self._program, self._moving = ctx, program, moving
         self._vertices = ctx.buffer(points)
         self._indices = ctx.buffer(np.ascontiguousarray(occluder.indices, np.uint32))
         self._make_room(1)
@@ -35,26 +44,40 @@ class _Mesh:
     def _make_room(self, count: int) -> None:
         self._room = count
         self._matrices = self._ctx.buffer(reserve=count * MATRIX_BYTES, dynamic=True)
-        self._array = self._ctx.vertex_array(
-            self._program,
-            [(self._vertices, "3f", "in_vertex"), (self._matrices, "16f/i", "in_to_map")],
-            index_buffer=self._indices,
-        )
+        content: list[tuple[Any, ...]] = [
+            (self._vertices, "3f", "in_vertex"),
+            (self._matrices, "16f/i", "in_to_map"),
+        ]
+        self._motions: moderngl.Buffer | None = None
+        if self._moving:
+            self._motions = self._ctx.buffer(reserve=count * MOTION_BYTES, dynamic=True)
+            content.append((self._motions, "4f 4f 4f/i", "in_x", "in_y", "in_z"))
+        self._array = self._ctx.vertex_array(self._program, content, index_buffer=self._indices)
 
-    def draw(self, matrices: NDArray[np.float64]) -> None:
-        """Draw it once for each matrix, (n, 4, 4) for column vectors."""
+    def draw(
+        self, matrices: NDArray[np.float64], motions: NDArray[np.float64] | None = None
+    ) -> None:
+        """Draw it once for each matrix, (n, 4, 4) for column vectors; motions: (n, 3, 4)."""
         count = len(matrices)
         if count > self._room:
-            self._array.release()
-            self._matrices.release()
+            self._release_room()
             self._make_room(1 << (count - 1).bit_length())
         self._matrices.orphan()
         self._matrices.write(np.ascontiguousarray(matrices.transpose(0, 2, 1), np.float32))
+        if self._motions is not None and motions is not None:
+            self._motions.orphan()
+            self._motions.write(np.ascontiguousarray(motions, np.float32))
         self._array.render(moderngl.TRIANGLES, instances=count)
 
+    def _release_room(self) -> None:
+        for thing in (self._array, self._matrices, self._motions):
+            if thing is not None:
+                thing.release()
+
     def release(self) -> None:
-        for thing in (self._array, self._matrices, self._indices, self._vertices):
-            thing.release()
+        self._release_room()
+        self._indices.release()
+        self._vertices.release()
 
 
 class OccluderMeshes:
@@ -62,28 +85,35 @@ class OccluderMeshes:
 
     def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader) -> None:
         self._ctx = ctx
-        self._program = shaders.program(DRAW)
-        self._meshes: dict[tuple[int, int], _Mesh] = {}
+        self._programs = shaders.program(DRAW), shaders.program(MOTION)
+        self._meshes: dict[_Name, _Mesh] = {}
 
-    def draw(self, occluders: Iterable[OccluderData], to_map: NDArray[np.float64]) -> int:
+    def draw(
+        self,
+        occluders: Iterable[OccluderData],
+        to_map: NDArray[np.float64],
+        motion: OccluderMotion | None = None,
+    ) -> int:
         """Draw occluders that have meshes with the map's matrix (4, 4); returns how many are in it.
 
         `to_map` takes world points to the map's clip space. What lies outside is left out, and what
-        shares a mesh is drawn at once.
+        shares a mesh is drawn at once. With `motion` their velocities are drawn, too.
         """
-        groups: dict[tuple[int, int], list[NDArray]] = {}
+        moving = motion is not None
+        groups: dict[_Name, list[OccluderData]] = {}
         for occluder in occluders:
-            key = (id(occluder.vertices), id(occluder.indices))
+            key = (id(occluder.vertices), id(occluder.indices), moving)
             group = groups.get(key)
             if group is None:
                 group = groups[key] = []
                 if key not in self._meshes:
-                    self._meshes[key] = _Mesh(self._ctx, self._program, occluder)
-            group.append(occluder.transform)
+                    program = self._programs[moving]
+                    self._meshes[key] = _Mesh(self._ctx, program, occluder, moving)
+            group.append(occluder)
         drawn = 0
-        for key, transforms in groups.items():
+        for key, group in groups.items():
             mesh = self._meshes[key]
-            matrices = to_map @ np.array(transforms, np.float64)
+            matrices = to_map @ np.array([o.transform for o in group], np.float64)
             level = matrices[:, :2]
             at = np.abs(level[:, :, :3] @ mesh.center + level[:, :, 3])
             # How far the sphere about a mesh reaches in the map, which is sheared.
@@ -91,14 +121,18 @@ class OccluderMeshes:
             within = (at <= 1.0 + reach).all(axis=1)
             count = int(np.count_nonzero(within))
             if count:
-                mesh.draw(matrices if count == len(matrices) else matrices[within])
+                motions = None if motion is None else np.array([motion.of(o) for o in group])
+                if count < len(matrices):
+                    matrices = matrices[within]
+                    motions = None if motions is None else motions[within]
+                mesh.draw(matrices, motions)
                 drawn += count
         return drawn
 
     def keep(self, occluders: Iterable[OccluderData]) -> None:
         """Give back the meshes that none of `occluders` uses."""
         wanted = {(id(o.vertices), id(o.indices)) for o in occluders if o.vertices is not None}
-        for key in [k for k in self._meshes if k not in wanted]:
+        for key in [k for k in self._meshes if k[:2] not in wanted]:
             self._meshes.pop(key).release()
 
     def __len__(self) -> int:

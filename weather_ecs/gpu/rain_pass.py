@@ -12,6 +12,7 @@ from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.compute_order import ComputeOrder
 from weather_ecs.gpu.drop_set import DropSet
 from weather_ecs.gpu.impact_list import ImpactList
+from weather_ecs.gpu.kind_programs import MOTION_UNIT as MOTION_UNIT
 from weather_ecs.gpu.kind_programs import SHELTER_UNIT as SHELTER_UNIT
 from weather_ecs.gpu.kind_programs import KindPrograms, step_name
 from weather_ecs.gpu.rain_blocks import RAIN_DRAW, RAIN_STEP
@@ -68,7 +69,7 @@ class RainPass:
         self._kind(RAIN)
         self._find = shaders.program(FIND) if self._lists else None
         if self._find is not None:
-            self._find["shelter_map"] = SHELTER_UNIT
+            self._find["shelter_map"], self._find["shelter_motion"] = SHELTER_UNIT, MOTION_UNIT
         self._order = ComputeOrder(ctx)
         self._step_block = BlockBuffer(ctx, RAIN_STEP)
         self._air = AirBlock(ctx)

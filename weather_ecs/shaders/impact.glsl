@@ -14,12 +14,16 @@ struct Impact {
     float speed;     // m/s
     float weight;    // real drops that it stands for
     float seed;      // in [0, 1)
+    vec3 ride;       // m/s, of what was hit
 };
+
+#include "motion.glsl"
 
 #if defined(IMPACT_LIST) || defined(IMPACT_RECORDS)
 bool unpack_impact(vec4 hit, vec4 surface, vec4 fall, out Impact i)
 {
-    i = Impact(hit.xyz, view_time.x - hit.w, surface.xyz, surface.w, fall.x, fall.y, fall.z);
+    i = Impact(hit.xyz, view_time.x - hit.w, surface.xyz, surface.w, fall.x, fall.y, fall.z,
+               motion_velocity(unpacked_motion(fall.w)));
     return i.age >= 0.0 && i.age < 100.0;
 }
 #endif
@@ -46,13 +50,15 @@ bool read_impact(out Impact i)
 #include "landed.glsl"
 #include "shelter.glsl"
 
+uniform sampler2D shelter_motion;
+
 in vec3 in_position;
 in vec3 in_velocity;
 in vec4 in_birth;
 
 bool read_impact(out Impact i)
 {
-    i = Impact(vec3(0.0), 1e9, vec3(0.0, 1.0, 0.0), 0.0, 0.0, 0.0, in_birth.w);
+    i = Impact(vec3(0.0), 1e9, vec3(0.0, 1.0, 0.0), 0.0, 0.0, 0.0, in_birth.w, vec3(0.0));
     if (!has_landed(in_velocity) || in_velocity.y > 1e8) return false;
     i.position = vec3(in_velocity.x, in_velocity.y - LANDED, in_velocity.z);
     i.diameter = drop_diameter(in_birth.w, drop_law);
@@ -62,7 +68,12 @@ bool read_impact(out Impact i)
     float d;
     i.weight = drop_weight(i.position, in_birth.z, gl_VertexID, d);
     i.weight *= drop_arrived(i.position.y, i.speed, i.age);
-    i.normal = surface_normal(shelter_place(i.position).xy);
+    vec2 at = shelter_place(i.position).xy;
+    i.normal = surface_normal(at);
+    // Of what is there by now, most often the same; and it was hit in the course of a step.
+    vec3 bytes = texelFetch(shelter_motion, ivec2(at * shelter_size.x), 0).rgb * 255.0;
+    i.ride = motion_velocity(floor(bytes + 0.5));
+    i.position -= i.ride * min(i.age, view_time.y);
     return i.weight > 0.0;
 }
 #endif

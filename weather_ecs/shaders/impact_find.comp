@@ -3,6 +3,9 @@ layout(local_size_x = 64) in;  // FIND_GROUP
 #define SHELTER
 #include "drop_step.glsl"
 #include "impact_list.glsl"
+#include "motion.glsl"
+
+uniform sampler2D shelter_motion;
 
 layout(std430, binding = 0) readonly buffer Births { vec4 births[]; };
 layout(std430, binding = 1) buffer Drops { float drops[]; };
@@ -30,5 +33,10 @@ void main()
     float d;
     float weight = drop_weight(hit, birth.z, int(id), d) * drop_arrived(hit.y, speed, age);
     if (weight <= 0.0) return;
-    append_impact(hit, rain_time - age, normal, diameter, speed, weight, birth.w);
+    // What was hit is there now; where it was when it was hit, so that the splash rides on with it.
+    ivec2 at_map = ivec2(shelter_place(hit).xy * shelter_size.x);
+    vec3 bytes = floor(texelFetch(shelter_motion, at_map, 0).rgb * 255.0 + 0.5);
+    hit -= motion_velocity(bytes) * age;
+    append_impact(hit, rain_time - age, normal, diameter, speed, weight, birth.w,
+                  packed_motion(bytes));
 }

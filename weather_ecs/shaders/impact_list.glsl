@@ -5,7 +5,7 @@
 layout(std430, binding = 3) writeonly buffer Impacts { vec4 impacts[]; };  // three a record
 
 void append_impact(vec3 at, float time, vec3 normal, float diameter, float speed, float weight,
-                   float seed)
+                   float seed, float ride)
 {
     uint k = atomicAdd(impact_total, 1u);
     if (k - total_before >= impact_capacity) {
@@ -17,5 +17,5 @@ void append_impact(vec3 at, float time, vec3 normal, float diameter, float speed
     k = (k % impact_capacity) * 3u;
     impacts[k] = vec4(at, time);
     impacts[k + 1u] = vec4(normal, diameter);
-    impacts[k + 2u] = vec4(speed, weight, seed, 0.0);
+    impacts[k + 2u] = vec4(speed, weight, seed, ride);
 }

@@ -16,12 +16,16 @@ layout(triangle_strip, max_vertices = 71) out;
 
 in vec3 vs_throw[];
 in float vs_more[];
+in vec3 vs_ridden[];
+
+vec3 hit;  // m, on the surface
 
 const float EDGE = 0.08;  // m, of a drop in height that a droplet may fall over
 const float WITHIN = 0.3;  // m, of a droplet below what rain meets first at its place
 const float GONE = 0.12;  // m, that a surface may have sunk under a splash; at twice that it is gone
 // m: beside what is so much higher it cannot be told whether a hit is before a wall or within it.
 const float BESIDE = 0.9;
+const float SNAP = 0.3;  // m along the fall by which what rides on a thing is brought onto it
 const float STEEP = 0.5;  // rise of the normal below which what is hit is a wall
 
 // Whether one of the texels around a place at a depth of the map is of something far above it: there
@@ -107,7 +111,7 @@ void droplets(float seed, vec3 n, vec4 color)
     float age = vs_throw[0].y;
     vec3 pull = splash_pull.xyz;
     // The eddies that were there at the hit have gone on with the wind since.
-    if (air_gain.w > 0.0) pull += splash_grain.y * eddies(vs_at[0] + air_wind.xyz * age);
+    if (air_gain.w > 0.0) pull += splash_grain.y * eddies(hit + air_wind.xyz * age);
     uint id = floatBitsToUint(seed);
     float number = floor(splash_spray.y + hash_unit(id ^ 0x27D4EB2Fu));
     float fall = dot(n, pull);
@@ -122,13 +126,13 @@ void droplets(float seed, vec3 n, vec4 color)
         vec3 v = (n * cos(tilt) + across * sin(tilt)) * pace;
         float back = fall < 0.0 ? min(-2.0 * dot(n, v) / min(fall, -1e-6), LONGEST) : LONGEST;
         vec3 way = v * age + 0.5 * pull * (age * age);
-        vec3 landed = vs_at[0] + v * back + 0.5 * pull * (back * back);
+        vec3 landed = hit + v * back + 0.5 * pull * (back * back);
         // Over the edge of what was hit it falls on, as deep as it is there; else it has landed.
         float deep = -below_surface(shelter_place(landed));
         if (age >= back && (deep < EDGE || -dot(n, way) > deep)) continue;
         // Nor does it fly on through a wall, or in under a roof.
-        if (below_surface(shelter_place(vs_at[0] + way)) > WITHIN) continue;
-        droplet(vs_at[0] + way, v + pull * age, splash_grain.x, color);
+        if (below_surface(shelter_place(hit + way)) > WITHIN) continue;
+        droplet(hit + way, v + pull * age, splash_grain.x, color);
     }
 }
 
@@ -141,12 +145,20 @@ void around(vec4 form, vec4 color)
         vec4 off = companion(form.w, k, id);
         float x = (vs_throw[0].y - off.z) / splash_look.z;
         if (x < 0.0 || x > CROWN_LIFE) continue;
-        vec3 at = vs_at[0] + vec3(off.x, 0.0, off.y);
+        vec3 at = hit + vec3(off.x, 0.0, off.y);
         vec3 m = shelter_place(at);
         if (!in_shelter_map(m)) continue;
         vec2 part;
         vec4 c = shelter_corners(m.xy, part);
         float rise = below_corners(m, c, part);
+        // Beside the thing that its splash rides on, it stays where it was.
+        if (abs(rise) > WITHIN && vs_ridden[0] != vec3(0.0)) {
+            at -= vs_ridden[0];
+            m = shelter_place(at);
+            if (!in_shelter_map(m)) continue;
+            c = shelter_corners(m.xy, part);
+            rise = below_corners(m, c, part);
+        }
         if (beside_wall(m.z - rise / shelter_size.y, c)) continue;
         at += rise * vec3(-shelter_fall.x, 1.0, -shelter_fall.y);
         vec3 n = corners_normal(c, part);
@@ -163,25 +175,29 @@ void main()
     vec4 form = vs_form[0];
     if (form.x <= 0.0) return;
     vec3 n = vs_normal[0];
-    vec3 m = shelter_place(vs_at[0]);
+    hit = vs_at[0];
+    vec3 m = shelter_place(hit);
     float left = 1.0;
     if (in_shelter_map(m)) {
         vec2 part;
         vec4 c = shelter_corners(m.xy, part);
         if (beside_wall(m.z, c)) return;
-        left -= smoothstep(GONE, 2.0 * GONE, -below_corners(m, c, part));
+        float rise = below_corners(m, c, part);
+        if (vs_ridden[0] != vec3(0.0) && abs(rise) < SNAP)
+            hit += rise * vec3(-shelter_fall.x, 1.0, -shelter_fall.y);
+        else left -= smoothstep(GONE, 2.0 * GONE, -rise);
     }
-    float above = dot(normalize(camera_position.xyz - vs_at[0]), n);
+    float above = dot(normalize(camera_position.xyz - hit), n);
     if (n.y < STEEP && above < 0.0) return;
     lift = clamp(40.0 * above, 0.0, 1.0);
     vec4 color = vs_color[0] * vec4(1.0, 1.0, 1.0, left);
 #ifdef SMALL
-    crown(vs_at[0], n, form, color);
+    crown(hit, n, form, color);
 #else
     vec4 near = vec4(color.rgb, vs_throw[0].z);
     vec4 mine = near * vec4(1.0, 1.0, 1.0, left);
-    if (mine.a > FAINTEST) film(vs_at[0], n, form, mine);
-    crown(vs_at[0], n, form, color);
+    if (mine.a > FAINTEST) film(hit, n, form, mine);
+    crown(hit, n, form, color);
     if (mine.a > FAINTEST) droplets(form.w, n, mine);
     if (near.a > FAINTEST && form.z < 0.5) around(form, near);
 #endif

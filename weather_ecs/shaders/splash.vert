@@ -10,6 +10,7 @@ out vec4 vs_color;  // encoded, with the crown's opacity
 out vec4 vs_form;   // radius in m, share of its life that is over, 1 on water, seed
 out vec3 vs_throw;  // speed of the droplets in m/s, age in s, opacity of film and droplets
 out float vs_more;  // companions
+out vec3 vs_ridden; // m that it has gone with what was hit
 
 float on_water(vec3 p)
 {
@@ -26,17 +27,18 @@ float on_water(vec3 p)
 
 void main()
 {
-    vs_at = vs_normal = vs_throw = vec3(0.0);
+    vs_at = vs_normal = vs_throw = vs_ridden = vec3(0.0);
     vs_more = 0.0;
     vs_color = vs_form = vec4(0.0);
     gl_Position = vec4(0.0);
     Impact i;
     Seen s;
     if (!read_impact(i) || !splash_seen(i, s)) return;
-    vs_at = i.position;
+    vs_at = s.at;
+    vs_ridden = s.at - i.position;
     vs_normal = i.normal;
-    vs_color = vec4(encode(in_fog(drop_light(i.position, s.ray), s.away)), s.crown);
-    vs_form = vec4(s.radius, s.x, on_water(i.position), i.seed);
+    vs_color = vec4(encode(in_fog(drop_light(s.at, s.ray), s.away)), s.crown);
+    vs_form = vec4(s.radius, s.x, on_water(s.at), i.seed);
     vs_throw = vec3(i.speed * splash_spray.z * min(s.high, 1.0), i.age, s.detail);
     vs_more = companions(i.weight, i.seed);
 }

@@ -5,6 +5,7 @@
 const float THROWN = 0.4;  // m that droplets fly, for culling
 
 struct Seen {
+    vec3 at;       // m, where it has come to with what was hit
     float high;    // see stature
     float radius;  // m, of the crown when it has opened
     float pixels;  // the same
@@ -18,12 +19,13 @@ struct Seen {
 // False where nothing is.
 bool splash_seen(Impact i, out Seen s)
 {
-    s = Seen(0.0, 0.0, 0.0, vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+    s = Seen(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), 0.0, 0.0, 0.0, 0.0);
     if (i.age >= max(splash_look.z, LONGEST)) return false;
-    vec4 clip = view_projection * vec4(i.position, 1.0);
+    s.at = i.position + i.ride * i.age;
+    vec4 clip = view_projection * vec4(s.at, 1.0);
     if (clip.w < 0.2) return false;
     s.high = stature(i.weight, i.seed);
-    s.ray = i.position - camera_position.xyz;
+    s.ray = s.at - camera_position.xyz;
     s.away = length(s.ray);
     s.radius = crown_radius(i.diameter, i.speed, s.high) * near_size(s.away);
     s.pixels = s.radius * camera_position.w / clip.w;
