@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.cloud_stage import CloudStage, cloud_stage, clouds, shape, sky_frame, view_of
-from weather_ecs.gpu.cloud_bounds import picture_bounds
+from weather_ecs.gpu.cloud_bounds import picture_bounds, shared_octagon
 from weather_ecs.gpu.cloud_scene import scene_of
 
 SLANTED = ((-300.0, -150.0, 0.0), (0.0, 0.0, 0.0), (300.0, 150.0, 0.0))
@@ -50,3 +50,43 @@ def test_a_picture_is_only_as_large_as_what_shows(stage: CloudStage) -> None:
         assert all(0.0 < cut <= 2.0 for cut in bounds.cuts)
     assert sizes[1][0] < 0.6 * sizes[0][0]
     assert sizes[1][1] < 0.8 * sizes[0][1]
+
+
+def test_an_older_picture_is_not_cut_off_by_a_smaller_one(stage: CloudStage) -> None:
+    data = shape(centers=SLANTED, billboards=20)
+    data.billboards["order"][:20] = np.linspace(0.6, 1.0, 20)
+    data.billboards["order"][20:40] = np.linspace(0.0, 0.3, 20)
+    data.billboards["order"][40:] = np.linspace(0.6, 1.0, 20)
+    for _ in range(40):
+        before = stage.draw(sky_frame(clouds(FAR), data), pitch=0.25, dt=0.1)
+    after = sky_frame(clouds({**FAR, "growth": 0.35}), data)
+    first = stage.draw(after, pitch=0.25, dt=1e-4)
+    kept = stage.passes.impostors().kept
+    assert 0.0 <= kept["share"][0] < 0.01, "the newer picture has hardly begun to show"
+    assert kept["quad"][0, 1, 0] < 0.7 * kept["old_quad"][0, 1, 0]
+    assert np.abs(first - before).max() < 2.0 / 255.0
+    for _ in range(10):
+        stage.draw(after, pitch=0.25, dt=0.1)
+    assert kept["share"][0] >= 1.0
+    assert (stage.cover(before) > 0.02).sum() > 1.5 * (
+        stage.cover(stage.draw(after, pitch=0.25)) > 0.02
+    ).sum()
+
+
+def test_a_picture_that_is_no_likeness_gives_way_at_once() -> None:
+    quad = np.array([[(0.0, 0.0, -100.0), (10.0, 0.0, 0.0), (0.0, 5.0, 0.0)]])
+    whole = np.full((1, 4), 2.0)
+    size, cuts = shared_octagon(quad, whole, quad, whole)
+    assert size == pytest.approx([1.0]) and cuts == pytest.approx(whole)
+    larger = quad * np.array([1.0, 3.0, 2.0])[:, None]
+    size, cuts = shared_octagon(quad, np.full((1, 4), 1.5), larger, whole)
+    assert size == pytest.approx([3.0])
+    # Of the older picture's corner (3, 2), in units of the wider octagon.
+    assert cuts == pytest.approx(np.full((1, 4), 5.0 / 3.0))
+    farther = quad * np.array([2.0, 3.0, 2.0])[:, None]
+    assert shared_octagon(quad, whole, farther, whole)[0] == pytest.approx([1.5])
+    for other in (
+        quad * np.array([1.0, 5.0, 1.0])[:, None],
+        quad * np.array([-1.0, 1.0, 1.0])[:, None],
+    ):
+        assert shared_octagon(quad, whole, other, whole)[0] == np.inf

@@ -17,6 +17,7 @@ Vector = NDArray[np.float64]
 
 
 MARGIN = 1.01  # of what is shown
+WIDEST = 4.0  # times a picture's size, that is drawn for its predecessor's sake
 FAINT = 0.004  # opacity of a billboard that does not show
 
 
@@ -55,3 +56,40 @@ def picture_bounds(scene: CloudScene, shape: StoredShape, index: int) -> Picture
     spare = 2.0 * (MARGIN - 1.0)
     a, b, c, d = (min(float(part.max()) + spare, 2.0) for part in (u + v, v - u, -u - v, u - v))
     return PictureBounds((way, right, up), middle, (half[0], half[1]), (a, b, c, d))
+
+
+def shared_octagon(
+    quads: Vector, cuts: NDArray, old_quads: Vector, old_cuts: NDArray
+) -> tuple[Vector, Vector]:
+    """What to draw pictures in while they replace others, so that those are not cut off.
+
+    quads: (m, 3, 3) middle from the camera, half width, half height; cuts: (m, 4). Returned: how
+    many times the picture's size, (m,), infinite where it is too much or they cannot be drawn in
+    one plane, and the cuts of that, (m, 4).
+    """
+    middle, wide, high = quads[:, 0], quads[:, 1], quads[:, 2]
+    rim = _octagon(old_cuts)
+    rim = old_quads[:, :1] + rim[..., :1] * old_quads[:, 1:2] + rim[..., 1:] * old_quads[:, 2:]
+    normal = np.cross(wide, high)
+    depth = np.einsum("mki,mi->mk", rim, normal)
+    there = np.einsum("mi,mi->m", middle, normal)[:, None]
+    fits = (depth * np.sign(there) > np.abs(there) / WIDEST).all(axis=1)
+    on = rim * (there / np.where(fits[:, None], depth, 1.0))[..., None] - middle[:, None]
+    across = [
+        np.einsum("mki,mi->mk", on, axis) / np.maximum((axis * axis).sum(axis=1), 1e-12)[:, None]
+        for axis in (wide, high)
+    ]
+    at = np.concatenate([np.stack(across, axis=-1), _octagon(cuts)], axis=1)
+    size = np.abs(at).max(axis=(1, 2))
+    u, v = (at / size[:, None, None]).transpose(2, 0, 1)
+    cut = np.stack([each.max(axis=1) for each in (u + v, v - u, -u - v, u - v)], axis=1)
+    return np.where(fits & (size <= WIDEST), size, np.inf), cut
+
+
+def _octagon(cuts: NDArray) -> Vector:
+    """(m, 8, 2) corners, in halves of the rectangle."""
+    ends = np.asarray(cuts, np.float64) - 1.0
+    one = np.ones_like(ends)
+    sides = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
+    both = np.stack([np.stack([one, ends], -1), np.stack([ends, one], -1)], axis=2)
+    return (both * sides[:, None]).reshape(len(ends), 8, 2)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.gpu.cloud_atlas import Atlas, Tile
-from weather_ecs.gpu.cloud_bounds import picture_bounds
+from weather_ecs.gpu.cloud_bounds import picture_bounds, shared_octagon
 from weather_ecs.gpu.cloud_kept import KEPT_DTYPE
 from weather_ecs.gpu.cloud_scene import CloudScene
 from weather_ecs.gpu.cloud_store import StoredShape
@@ -27,7 +27,6 @@ ENOUGH = 0.7  # texels of a picture for each of its pixels
 LARGE = 1.6  # pixels for each texel of the largest picture, above which billboards are drawn
 UNIT = 96  # texels, height of a picture as the budget counts them
 WAITING = 4  # times as many are taken of clouds that have none yet
-ASIDE = 0.06  # of half a picture, by which an older one may lie beside its successor
 PIXELS_OFF = 1.3  # parallax that is let be
 _STATE = np.array([0.04, 0.05, 0.06, 0.04, 0.04])  # changes that are let be
 
@@ -49,8 +48,7 @@ class Impostors:
         self.atlas = Atlas(ctx, height)
         self.kept = np.zeros(0, KEPT_DTYPE)
         self._keys = np.zeros(0, np.int64)
-        self._draws = 0
-        self._stamp = 0
+        self._draws = self._stamp = 0
         self._light: NDArray[np.float64] | None = None
 
     def follow(self, scene: CloudScene, light: NDArray[np.float64], dt: float) -> None:
@@ -192,11 +190,8 @@ class Impostors:
             return None
         kept = self.kept
         self._give_old(index)
-        if kept["tile"][index, 2]:
-            kept["old_tile"][index] = kept["tile"][index]
-            kept["old_quad"][index] = kept["quad"][index]
-            kept["old_cuts"][index] = kept["cuts"][index]
-            kept["share"][index] = 0.0
+        for name in ("tile", "quad", "cuts"):
+            kept[f"old_{name}"][index] = kept[name][index]
         kept["tile"][index] = tile
         way, right, up = bounds.axes
         (mx, my), (hx, hy) = bounds.middle, bounds.half
@@ -211,6 +206,12 @@ class Impostors:
         kept["version"][index], kept["shape"][index] = shape.versions, shape.data.key
         kept["stamp"][index] = self._stamp
         kept["state"][index] = _state(scene.clouds[index : index + 1])[0]
+        if kept["old_tile"][index, 2]:
+            size, _ = self._shared(scene, np.array([index]))
+            kept["share"][index] = 0.0
+            # One so long out of date that it is no likeness gives way at once.
+            if size[0] == np.inf:
+                self._give_old(index)
         return tile, matrix.astype(np.float32)
 
     def quads(
@@ -225,15 +226,24 @@ class Impostors:
         rows[:, 0, 3] = scene.clouds["opacity"][which]
         rows[:, 1, 3] = kept["share"]
         rows[:, 2, 3] = scene.clouds["flash"][which]
-        rows[:, 3] = self._frames(kept["tile"])[:, (0, 1, 2, 2)]
+        rows[:, 3, :3] = self._frames(kept["tile"])
         rows[:, 4] = haze
         rows[:, 5:8, :3] = kept["old_quad"]
         rows[:, 5, :3] += center
         rows[:, 5:8, 3] = self._frames(kept["old_tile"])
+        rows[:, 3, 3], rows[:, 8] = 1.0, kept["cuts"]
         # The older picture may show something where the newer one has nothing.
-        both = np.minimum(np.maximum(kept["cuts"], kept["old_cuts"]) + ASIDE, 2.0)
-        rows[:, 8] = np.where(kept["share"][:, None] < 1.0, both, kept["cuts"])
+        both = np.flatnonzero(kept["share"] < 1.0)
+        if len(both):
+            rows[both, 3, 3], rows[both, 8] = self._shared(scene, which[both])
         return rows
+
+    def _shared(self, scene: CloudScene, which: NDArray[np.intp]) -> tuple[NDArray, NDArray]:
+        """Of clouds with two pictures, as `shared_octagon` has it."""
+        kept = self.kept[which]
+        for name in ("quad", "old_quad"):
+            kept[name][:, 0] += scene.center[which]
+        return shared_octagon(kept["quad"], kept["cuts"], kept["old_quad"], kept["old_cuts"])
 
     def _frames(self, tiles: NDArray) -> NDArray[np.float64]:
         """u, v and size of tiles, (m, 3); as Atlas.frame."""
@@ -259,9 +269,9 @@ class Impostors:
         return None
 
     def _give_old(self, index: int) -> None:
-        old = self.kept["old_tile"][index]
-        if old[2]:
-            self.atlas.space.give((int(old[0]), int(old[1]), int(old[2])))
+        x, y, side = (int(v) for v in self.kept["old_tile"][index])
+        if side:
+            self.atlas.space.give((x, y, side))
         self.kept["old_tile"][index] = 0
         self.kept["share"][index] = 1.0
 

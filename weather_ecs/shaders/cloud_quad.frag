@@ -6,10 +6,14 @@
 #endif
 uniform sampler2D cloud_atlas;
 
+#ifndef FADING
 in vec2 vs_uv;
+#endif
 flat in vec4 vs_haze;  // encoded and times its share; the share
 flat in vec2 vs_share;  // opacity, and share of the newer picture
 #ifdef FADING
+in vec2 vs_now;
+flat in vec3 vs_tile;
 in vec2 vs_before;
 flat in vec4 vs_frame;
 #endif
@@ -23,8 +27,11 @@ out vec4 color;
 
 void main()
 {
+#ifndef FADING
     vec4 texel = texture(cloud_atlas, vs_uv);
-#ifdef FADING
+#else
+    vec2 within = step(abs(vs_now - 0.5), vec2(0.5));
+    vec4 texel = texture(cloud_atlas, vs_tile.xy + vs_tile.z * vs_now) * (within.x * within.y);
     vec2 inside = step(abs(vs_before - 0.5), vec2(0.5));
     vec4 before = texture(cloud_atlas, vs_frame.xy + vs_frame.zw * vs_before);
     texel = mix(before * (inside.x * inside.y), texel, vs_share.y);

@@ -4,10 +4,14 @@ uniform sampler2D cloud_quads;  // nine texels each
 uniform int cloud_first;
 uniform mat4 cloud_matrix;
 
+#ifndef FADING
 out vec2 vs_uv;
+#endif
 flat out vec4 vs_haze;
 flat out vec2 vs_share;
 #ifdef FADING
+out vec2 vs_now;  // place in the newer picture, which may end before this octagon does
+flat out vec3 vs_tile;  // its frame
 out vec2 vs_before;  // place in the older picture
 flat out vec4 vs_frame;  // the older picture's frame
 #endif
@@ -26,7 +30,7 @@ void main()
     vec4 a = texelFetch(cloud_quads, ivec2(0, row), 0);  // centre, opacity
     vec4 b = texelFetch(cloud_quads, ivec2(1, row), 0);  // half of the width, share of the newer
     vec4 c = texelFetch(cloud_quads, ivec2(2, row), 0);  // half of the height, flash
-    vec4 uv = texelFetch(cloud_quads, ivec2(3, row), 0);  // corner and size
+    vec4 uv = texelFetch(cloud_quads, ivec2(3, row), 0);  // corner and size; of the octagon
     vs_haze = texelFetch(cloud_quads, ivec2(4, row), 0);
     vs_haze.rgb *= vs_haze.w;
     vs_share = vec2(a.w, b.w);
@@ -36,6 +40,9 @@ void main()
     float cut = texelFetch(cloud_quads, ivec2(8, row), 0)[quarter] - 1.0;
     vec2 corner = ((side ^ quarter) & 1) == 0 ? vec2(1.0, cut) : vec2(cut, 1.0);
     corner *= vec2(quarter == 0 || quarter == 3 ? 1.0 : -1.0, quarter < 2 ? 1.0 : -1.0);
+#ifdef FADING
+    corner *= uv.w;
+#endif
     vec3 p = a.xyz + b.xyz * corner.x + c.xyz * corner.y;
 #ifdef FLASHES
     vs_from = p;
@@ -44,8 +51,11 @@ void main()
     vs_flash_color = most < 0 ? vec3(0.0) : cloud_flash_color[most].rgb;
     vs_others = flashes_but(most, p) + own_flash(c.w, vec3(0.7));
 #endif
-    vs_uv = uv.xy + uv.zw * (corner * 0.5 + 0.5);
-#ifdef FADING
+#ifndef FADING
+    vs_uv = uv.xy + uv.z * (corner * 0.5 + 0.5);
+#else
+    vs_now = corner * 0.5 + 0.5;
+    vs_tile = uv.xyz;
     vs_before = vec2(0.0);
     vs_frame = vec4(0.0);
     if (b.w < 1.0) {
