@@ -209,7 +209,7 @@ def impostors(plain: Plain, out: Path) -> None:
         weather.add(presets.sky("fair"))
         plain.look(NORTH, 14.0)
         with_them = plain.still(weather, 90, dt=0.02)
-        renderer: Any = weather._renderer
+        renderer: Any = weather._renderer  # noqa: SLF001, no setting is for this
         clouds = renderer.clouds
         clouds.impostors_on = False
         without = plain.still(weather, 12, dt=1.0e-4)

@@ -139,7 +139,7 @@ def _parsed(body: str) -> tuple[Any, list[str]]:
             parsed = Metar.Metar(body, month=1, year=2000, strict=False)
         except Exception as error:
             raise MetarError(f"the report cannot be read: {error}") from error
-    return parsed, list(parsed._unparsed_groups)
+    return parsed, list(parsed._unparsed_groups)  # noqa: SLF001, no other name
 
 
 class _Reader:

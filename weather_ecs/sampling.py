@@ -89,8 +89,6 @@ class SampleField:
         "_flashes",
         "_fog",
         "_ground",
-        "_lamps",
-        "_lights",
         "_melts",
         "_profile",
         "_rain",
@@ -100,6 +98,8 @@ class SampleField:
         "_snow",
         "_time",
         "_wind",
+        "lamps",
+        "lights",
     )
 
     def __init__(
@@ -117,9 +117,9 @@ class SampleField:
         self._shelter, self._ground, self._time = shelter, ground, frame.time
         self._snow, self._melts = snow, frame.air.wet_bulb > 0.0
         self._settling = frame.flakes.settling
-        self._lights = frame.lights.tobytes()
-        same = before is not None and before._lights == self._lights
-        self._lamps: Lamps = before._lamps if before and same else _lamps(frame.lights)
+        self.lights = frame.lights.tobytes()
+        same = before is not None and before.lights == self.lights
+        self.lamps: Lamps = before.lamps if before and same else _lamps(frame.lights)
         shine = luminance(frame.lightning.color)
         self._flashes = [
             (tuple(row["place"].tolist()), shine * float(row["light"])) for row in frame.strikes
@@ -144,7 +144,7 @@ class SampleField:
 
     def light(self, x: float, y: float, z: float) -> float:
         """Luminance of day light, lightning and lamps; a lamp's falls as (1 - (d / reach)^2)^2."""
-        total = self._day_light + self._lamps.at(x, y, z)
+        total = self._day_light + self.lamps.at(x, y, z)
         for place, strength in self._flashes:
             total += strength * on_surface(place, (x, y, z), (0.0, 1.0, 0.0))
         return total
@@ -177,7 +177,7 @@ class SampleField:
             wetness,
             lying / DENSITY,
             temperature,
-            self.light(x, y, z) if self._flashes else self._day_light + self._lamps.at(x, y, z),
+            self.light(x, y, z) if self._flashes else self._day_light + self.lamps.at(x, y, z),
             air.humidity,
         )
         return tuple.__new__(Sample, made)  # at half the cost of its own constructor
@@ -205,7 +205,7 @@ class SampleField:
                 wetness = np.maximum(wetness, np.minimum(lying / SOAKED * FILM, FILM))
         for each in (rain, snow, wetness, lying):
             each[sheltered] = 0.0
-        light = self._day_light + self._lamps.many(x, y, z)
+        light = self._day_light + self.lamps.many(x, y, z)
         for place, strength in self._flashes:
             light += strength * on_level(place, x, y, z)
         return Samples(

@@ -169,6 +169,18 @@ class Simulation:
         self._extract.run(self._state)
         self._stats.time = self._state.clock.time
 
+    # What tools and the editor ask
+
+    def frame(self) -> FrameData:
+        """What the weather draws, as it is now: see `weather_ecs.tools.frame_of`."""
+        self._check_open()
+        return self._frame()
+
+    @property
+    def inner_state(self) -> WeatherState:
+        """What the systems share; it is theirs, and may be another in the next version."""
+        return self._state
+
     # The end
 
     def close(self) -> None:

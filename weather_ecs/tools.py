@@ -33,8 +33,7 @@ def frame_of(weather: Weather) -> FrameData:
 
     Raises ClosedError for a weather that is closed.
     """
-    weather._check_open()
-    return weather._frame()
+    return weather.frame()
 
 
 def cloud_images() -> NDArray[np.uint8]:

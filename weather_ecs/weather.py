@@ -15,7 +15,7 @@ from weather_ecs.prepared_draw import PreparedDraw
 from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, settings_for
 from weather_ecs.simulation import check_position
 from weather_ecs.systems.rain_view import RainView
-from weather_ecs.window_context import can_be_drawn_to, current
+from weather_ecs.window_context import can_be_drawn_to, check_window, current
 
 if TYPE_CHECKING:
     from weather_ecs.gpu.cloud_shadow import CloudShadow
@@ -243,15 +243,20 @@ class Weather(Contents):
         self._ready_renderer()
         return PreparedDraw(self._view.view(frame, camera, key, settings), settings)
 
+    def forget_drawn(self) -> None:
+        """Let nothing be left of what was drawn: drops that fly, splashes that have not sunk.
+
+        For tools that put the weather back; what observers were shown stays.
+        """
+        if self._renderer is not None:
+            self._view.forget(self._keys.key(None))
+            self._renderer.forget(self._keys.key(None))
+
     def _make_renderer(self) -> Renderer:
         from weather_ecs.gpu.context import obtain
         from weather_ecs.gpu.renderer import Renderer
 
-        if self._window is not None:
-            if not hasattr(self._window, "switch_to"):
-                raise InvalidValueError("window", self._window, "a pyglet window or None")
-            if self._window.context is None:
-                raise ContextError("the window is closed")
+        check_window(self._window)
         with current(self._window):
             context = obtain(self._context)
             return Renderer(context, backend=self._asked_backend, seed=self._state.seed)

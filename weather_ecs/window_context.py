@@ -7,6 +7,18 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from weather_ecs.errors import ContextError, InvalidValueError
+
+
+def check_window(window: Any) -> None:
+    """Raises InvalidValueError for what is no window, ContextError for one that is closed."""
+    if window is None:
+        return
+    if not hasattr(window, "switch_to"):
+        raise InvalidValueError("window", window, "a pyglet window or None")
+    if window.context is None:
+        raise ContextError("the window is closed")
+
 
 def can_be_drawn_to(window: Any) -> bool:
     """Whether it is open and has a size."""

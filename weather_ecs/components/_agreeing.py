@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any, TypeVar
 
-from weather_ecs.components._base import Check, Component, _set
+from weather_ecs.components._base import Check, Component, set_raw
 from weather_ecs.errors import InvalidValueError
 
 C = TypeVar("C", bound=Component)
@@ -38,7 +38,7 @@ class Agreeing(Component):
             try:
                 self.agree()
             except InvalidValueError:
-                _set(self, name, before)
+                set_raw(self, name, before)
                 raise
 
     def change(self, **values: Any) -> None:
@@ -52,7 +52,7 @@ class Agreeing(Component):
             self.agree()
         except InvalidValueError:
             for name, value in before.items():
-                _set(self, name, value)
+                set_raw(self, name, value)
             raise
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import numbers
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from itertools import count
 from typing import Any, ClassVar, NamedTuple
 from weakref import WeakKeyDictionary
@@ -44,7 +44,9 @@ def limits_of(check: Check) -> Limits | None:
     return _LIMITS.get(check)
 
 
-_set = object.__setattr__
+set_raw = object.__setattr__  # past every check
+changed = [0]  # another number after an assignment to any component
+_counts = count(1)  # two threads that make components at once never come to the same number
 
 
 class Component:
@@ -56,15 +58,12 @@ class Component:
     __slots__ = ("__weakref__",)
 
     checks: ClassVar[dict[str, Check]] = {}
-    _changed: ClassVar[list[int]] = [0]  # another number after an assignment to any component
-    _revision: ClassVar[list[int]] = [0]
-    # Two threads that make components at once never come to the same number.
-    _counts: ClassVar[Iterator[int]] = count(1)
+    revisions: ClassVar[list[int]] = [0]  # its one number is `revision()`
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         if Component in cls.__bases__:  # a game's subclass counts with the class it extends
-            cls._revision = [0]
+            cls.revisions = [0]
 
     def __setattr__(self, name: str, value: Any) -> None:
         check = self.checks.get(name)
@@ -75,8 +74,8 @@ class Component:
         except InvalidValueError as error:
             field = f"{type(self).__name__}.{name}"
             raise InvalidValueError(field, error.value, error.allowed) from None
-        _set(self, name, value)
-        self._revision[0] = self._changed[0] = next(self._counts)
+        set_raw(self, name, value)
+        self.revisions[0] = changed[0] = next(_counts)
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"the fields of {type(self).__name__} cannot be deleted")
@@ -84,13 +83,18 @@ class Component:
     @classmethod
     def revision(cls) -> int:
         """Counts the assignments to any component of this class; says when a cache is stale."""
-        return cls._revision[0]
+        return cls.revisions[0]
+
+
+def count_assignment(component: Component) -> None:
+    """Something of a component is another now; every assignment counts by itself."""
+    component.revisions[0] = changed[0] = next(_counts)
 
 
 def set_unchecked(component: Component, name: str, value: Any) -> None:
     """Set a field whose value is known to be good (a system's own result)."""
-    _set(component, name, value)
-    component._revision[0] = component._changed[0] = next(component._counts)
+    set_raw(component, name, value)
+    component.revisions[0] = changed[0] = next(_counts)
 
 
 def to_float(field: str, value: Any, allowed: str) -> float:

@@ -9,7 +9,15 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from weather_ecs.components._base import FAR, Check, Component, _set, flag, integer
+from weather_ecs.components._base import (
+    FAR,
+    Check,
+    Component,
+    count_assignment,
+    flag,
+    integer,
+    set_raw,
+)
 from weather_ecs.errors import InvalidValueError
 
 _VERTICES = "a finite array of shape (n, 3), n >= 3, within 1e7"
@@ -120,8 +128,8 @@ class Occluder(Component):
                 raise InvalidValueError("Occluder.draw", value, "a function, where no mesh is set")
         else:
             raise AttributeError(f"Occluder has no field {name!r}")
-        _set(self, name, value)
-        self._revision[0] = self._changed[0] = next(self._counts)
+        set_raw(self, name, value)
+        count_assignment(self)
 
     def _checked_vertices(self, value: Any, complete: bool) -> NDArray[np.float32] | None:
         if value is None and not complete:
@@ -143,6 +151,6 @@ class Occluder(Component):
             raise InvalidValueError("Occluder.vertices", vertices, "no mesh where draw is set")
         checked = _vertices("Occluder.vertices", vertices)
         checked_indices = _indices("Occluder.indices", indices, len(checked))
-        _set(self, "vertices", checked)
-        _set(self, "indices", checked_indices)
-        self._revision[0] = self._changed[0] = next(self._counts)
+        set_raw(self, "vertices", checked)
+        set_raw(self, "indices", checked_indices)
+        count_assignment(self)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from weather_ecs.components._base import FAR, Check, Component, _set, number, vector
+from weather_ecs.components._base import FAR, Check, Component, number, set_raw, vector
 
 
 class _Instrument(Component):
@@ -39,9 +39,9 @@ class RainGauge(_Instrument):
     }
 
     def __post_init__(self) -> None:
-        _set(self, "_rate", 0.0)
+        set_raw(self, "_rate", 0.0)
 
 
 def set_rate(gauge: RainGauge, rate: float) -> None:
     """Set the reading."""
-    _set(gauge, "_rate", rate)
+    set_raw(gauge, "_rate", rate)

@@ -39,7 +39,7 @@ class SkyLayer(Agreeing):
     turnover: float = 0.0
 
     # A count of its own: a layer may follow an observer, which changes neither skies nor models.
-    _revision: ClassVar[list[int]] = [0]
+    revisions: ClassVar[list[int]] = [0]
     checks: ClassVar[dict[str, Check]] = {
         "base": number(-1.0e3, 1.0e5),
         "center": vector(2, -FAR, FAR),

@@ -35,27 +35,19 @@ def in_world(name: str) -> Iterator[None]:
 
 def steps_of(weather: Weather) -> int:
     """Fixed steps that the weather has done."""
-    return weather._state.clock.steps
+    return weather.inner_state.clock.steps
 
 
 def settle(weather: Weather) -> None:
     """Take a rounding error out of the clock, so that equal runs have equal snapshots."""
-    clock = weather._state.clock
+    clock = weather.inner_state.clock
     if clock.remainder < _SETTLED:
         clock.remainder = 0.0
 
 
-def forget_drawn(weather: Weather) -> None:
-    """Let nothing be left of what was drawn: drops that fly, splashes that have not sunk."""
-    if weather._renderer is not None:
-        key = weather._keys.key(None)
-        weather._view.forget(key)
-        weather._renderer.forget(key)
-
-
 def entities_by_uid(weather: Weather) -> dict[int, int]:
     """Entities of the weather's world by the numbers that snapshots name them by."""
-    return {uid: entity for entity, uid in weather._state.uids.current().items()}
+    return {uid: entity for entity, uid in weather.inner_state.uids.current().items()}
 
 
 def law_speeds(wind: Wind, times: NDArray[np.float64]) -> NDArray[np.float64]:

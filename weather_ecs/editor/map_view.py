@@ -49,7 +49,7 @@ class MapView:
             studio.map_wanted = False
             _show_all(frame, studio, document)
         corner, far = _V(rect.x, rect.y), _V(rect.x + rect.width, rect.y + rect.height)
-        imgui.invisible_button("map", _V(rect.width, rect.height), view._ALL)
+        imgui.invisible_button("map", _V(rect.width, rect.height), view.ALL_BUTTONS)
         self._steer(document, shared, studio)
         lines = imgui.get_window_draw_list()
         lines.push_clip_rect(corner, far, True)

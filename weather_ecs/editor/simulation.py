@@ -19,7 +19,6 @@ from weather_ecs.components._base import Component
 from weather_ecs.editor.inside import (
     STEP,
     entities_by_uid,
-    forget_drawn,
     in_world,
     settle,
     steps_of,
@@ -76,7 +75,7 @@ class Simulation:
         self._timeline.clear()
         self._target = None
         if first:
-            forget_drawn(self.weather)
+            self.weather.forget_drawn()
             self.restart()
             return
         with in_world(self.world):

@@ -15,7 +15,7 @@ HELP = (
     "Right button held: look round, with W A S D Q E: fly"
 )
 _LEFT, _RIGHT, _MIDDLE = 0, 1, 2
-_ALL = (
+ALL_BUTTONS = (
     imgui.ButtonFlags_.mouse_button_left
     | imgui.ButtonFlags_.mouse_button_right
     | imgui.ButtonFlags_.mouse_button_middle
@@ -70,7 +70,7 @@ def show(name: str, target: Target, rect: Rect, *, takes_mouse: bool = True) -> 
     if not takes_mouse:
         imgui.dummy(imgui.ImVec2(rect.width, rect.height))
         return False
-    imgui.invisible_button(name, imgui.ImVec2(rect.width, rect.height), _ALL)
+    imgui.invisible_button(name, imgui.ImVec2(rect.width, rect.height), ALL_BUTTONS)
     return bool(imgui.is_item_hovered())
 
 

@@ -40,7 +40,7 @@ def with_whole(
     try:
         with in_world(world), Weather() as weather:
             weather.change_to(whole, center=center)
-            made = gather(weather._state)
+            made = gather(weather.inner_state)
             now = weather.whole
             overcast = 0.0 if now is None else covered_by(now.conditions.overcast)
     finally:

@@ -25,7 +25,7 @@ class WorldView:
     title = "World"
 
     def __init__(self, shared: Shared) -> None:
-        self._steering = False
+        pass
 
     def draw(self, document: Document, shared: Shared) -> None:
         """The bar, the picture, and what there is where the eye is."""

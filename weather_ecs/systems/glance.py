@@ -11,7 +11,7 @@ from typing import Any
 
 import esper
 
-from weather_ecs.components._base import Component
+from weather_ecs.components._base import Component, changed
 from weather_ecs.systems.queries import leaving
 from weather_ecs.systems.state import WeatherState
 
@@ -20,16 +20,13 @@ def look(state: WeatherState, kinds: Sequence[type[Component]]) -> tuple[Any, ..
     """All that can change: the kinds' revisions first, the lists of what there is of them last."""
     lists: list[Any] = [esper.get_component(kind) for kind in kinds]
     return (
-        [kind._revision[0] for kind in kinds],
+        [kind.revisions[0] for kind in kinds],
         leaving(entity for pairs in lists for entity, _ in pairs),
         (state.clock.steps, state.clock.remainder),
         (state.fronts.number, state.fronts.revision, state.cloud_shapes.version),
         (state.clouds, state.course, state.drawn),
         lists,
     )
-
-
-_changed = Component._changed
 
 
 class _Nothing:
@@ -61,7 +58,7 @@ class Glance:
         self._probe = None if dead is None else esper.get_component(_Nothing)
         clock, fronts = state.clock, state.fronts
         self._now = (
-            _changed[0],
+            changed[0],
             clock.steps,
             clock.remainder,
             fronts.number,

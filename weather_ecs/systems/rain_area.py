@@ -75,7 +75,7 @@ class RainAreaSystem:
 
     def run(self, state: WeatherState) -> None:
         """Move the areas by one fixed step; at the end of the world they stop."""
-        pairs, revision = esper.get_component(RainArea), RainArea._revision
+        pairs, revision = esper.get_component(RainArea), RainArea.revisions
         uids = state.uids.current()
         same = pairs is self._pairs and uids is self._uids
         same = same and self._known == (revision[0], state.fronts.number)
