@@ -120,7 +120,20 @@ def detail() -> NDArray:
     stone = 0.5 * tiled(4, 16, 16) + 0.4 * tiled(5, 32, 32) + 0.35 * tiled(6, 128, 128)
     grass = 0.35 * tiled(7, 8, 8) + 0.5 * tiled(8, 32, 32) + 0.5 * tiled(9, 64, 64)
     grass += 0.45 * tiled(10, 128, 128)
-    broad = 0.6 * tiled(11, 4, 4) + 0.5 * tiled(12, 8, 8) + 0.2 * tiled(13, 32, 32)
+    broad = patches(13, n)
     layers = np.stack([wood, stone, grass, broad], -1)
     layers /= np.abs(layers).max((0, 1)) * (0.75, 0.8, 0.75, 1.0)
     return np.clip(127.5 + 127.5 * layers, 0, 255).astype("u1")
+
+
+def patches(seed: int, n: int) -> NDArray:
+    """(n, n) tiled noise without a lattice: shores of puddles show every lattice, as steps.
+
+    From 2 to 50 waves across, the longer the stronger.
+    """
+    wave = np.fft.fftfreq(n, 1.0 / n)
+    across = np.hypot(*np.meshgrid(wave, wave))
+    strength = np.where((across >= 2.0) & (across < 50.0), np.maximum(across, 1.0) ** -2.4, 0.0)
+    white = np.random.default_rng(seed).standard_normal((n, n))
+    field = np.fft.ifft2(np.fft.fft2(white) * strength).real
+    return np.asarray(np.tanh(field / (2.6 * field.std()) - 0.09))

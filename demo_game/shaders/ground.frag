@@ -28,6 +28,9 @@ in float v_snow;
 in float v_gust;
 #ifdef WET
 in vec3 v_sky;
+#ifdef WATER
+flat in float v_ragged;
+#endif
 #endif
 #else
 in vec4 v_wild;
@@ -75,7 +78,8 @@ void main() {
     vec3 color = albedo * (v_light.rgb + v_sun * (v_light.a * lit));
 #ifdef WET
 #ifdef WATER
-    float water = weather_water_at(v_maps.zw, p.y, v_place.w);
+    // Read a little aside by the grain, so that where it is dry under a roof has a natural shore.
+    float water = weather_water_at(v_maps.zw + detail.gb * v_ragged, p.y, v_place.w);
     wet = weather_damp(water) * (1.0 - snowy);
     float puddle = weather_pooled(water, 5.0 - 12.5 * detail.a);
 #else

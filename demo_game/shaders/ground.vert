@@ -31,6 +31,9 @@ out float v_snow;     // near: upward part of the normal; far: mm of snow
 out float v_gust;     // how much brighter grass is that leans
 #ifdef WET
 out vec3 v_sky;       // what still water mirrors, display values
+#ifdef WATER
+flat out float v_ragged;  // half a metre in the map of the water
+#endif
 #endif
 #else
 out vec4 v_wild;
@@ -69,6 +72,7 @@ void main() {
 #ifdef WATER
     v_place.w = weather_open_wetness(in_position);
     v_maps.zw = weather_wet_place(in_position);
+    v_ragged = 0.5 * weather_wet_frame.z;
 #endif
 #endif
     v_gust = 0.45 * grass_lean(in_position.xz) - 0.12;
