@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tools import collision_sheets, metar_sheet, sky_sheets, stills
+from tools import collision_sheets, metar_sheet, showcase, sky_sheets, stills
 
 ROOT = Path(__file__).parent.parent
 KEPT = (
@@ -25,6 +25,8 @@ KEPT = (
         (sky_sheets.main, ["out.jpg", "dawn"]),
         (collision_sheets.main, ["out.jpg"]),
         (collision_sheets.main, ["out.jpg", "hail"]),
+        (showcase.main, []),
+        (showcase.main, ["out.jpg", "snow", "dawn"]),
     ],
 )
 def test_what_is_missing_is_said(

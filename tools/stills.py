@@ -63,6 +63,10 @@ class Stage:
             **options,
         )
 
+    def opening(self) -> Game:
+        """A game as one begins to play it, where it puts one."""
+        return Game(self._ctx, Settings(quality=self.quality), place=self._place)
+
     def look(self, x: float, z: float, yaw: float, pitch: float) -> None:
         """Stand at (x, z) in m and look along a yaw and a pitch in degrees."""
         y = float(self._place.height(x, z)) + EYE
