@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -59,6 +60,8 @@ def camera(
     far: float = 2000.0,
 ) -> Camera:
     """From a place along a heading, pitched up; `vertical` field of view in degrees."""
-    return camera_from(
+    found = camera_from(
         look_from(position, heading, pitch), perspective(vertical, aspect, near, far)
     )
+    # Of its own, to be written to: `camera_from` gives out the same one again.
+    return replace(found, view=found.view.copy(), projection=found.projection.copy())

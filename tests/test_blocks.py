@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import struct
 from collections.abc import Callable
 from typing import Any
 
@@ -158,6 +159,64 @@ def test_nothing_reaches_the_gpu_before_upload(
     read = (ctypes.c_float * 1)()
     gl.glGetBufferSubData(0x8A11, 0, 4, ctypes.addressof(read))
     assert read[0] == 1.0
+
+
+def test_a_run_writes_what_single_fields_do(
+    ctx: moderngl.Context, keep: Callable[[Any], Any]
+) -> None:
+    fields = (*FIELDS[:5], ("b_fours", "vec4", 2), ("b_more", "mat4", 2), ("b_word", "uint"))
+    block = UniformBlock("Probed", *fields, register=False)
+    one, other = (keep(BlockBuffer(ctx, block, 3)) for _ in range(2))
+    matrix = np.arange(16.0).reshape(4, 4)
+    numbers = (2.0, 3.0, 4.0, 5.0, 6.0, -7)
+    one.put(block.run("b_float"), 1.5)
+    one.put(block.run("b_pair", "b_three", "b_int"), *numbers)
+    tail = block.run("b_matrix", "b_fours", "b_word")
+    with pytest.raises(struct.error):
+        one.put(tail, 1.0)
+    skipped = block.run("b_matrix", "b_fours")
+    one.put(skipped, *matrix.T.ravel(), *range(8))
+    one.put(block.run("b_more", "b_word"), *([0.0] * 16), *matrix.T.ravel(), 9)
+    other["b_float"], other["b_pair"], other["b_three"] = 1.5, numbers[:2], numbers[2:5]
+    other["b_int"], other["b_matrix"], other["b_word"] = -7, matrix, 9
+    other["b_fours"] = np.arange(8).reshape(2, 4)
+    other["b_more"] = np.stack([np.zeros((4, 4)), matrix])
+    assert one.data.tobytes() == other.data.tobytes()
+
+
+def test_a_run_leaves_out_fields_in_between(
+    ctx: moderngl.Context, keep: Callable[[Any], Any]
+) -> None:
+    fields = ("a", "vec4"), ("b", "vec2"), ("c", "float")
+    buffer = keep(BlockBuffer(ctx, UniformBlock("Probed", *fields, register=False), 3))
+    buffer["b"] = 7.0, 7.0
+    # What lies between is overwritten with nothing.
+    buffer.put(buffer.block.run("a", "c"), 1.0, 2.0, 3.0, 4.0, 5.0)
+    assert buffer["a"].tolist() == [1.0, 2.0, 3.0, 4.0]
+    assert buffer["c"] == 5.0
+
+
+@pytest.mark.parametrize("names", [(), ("b_nothing",), ("b_pair", "b_float"), ("b_scalars",)])
+def test_bad_runs_are_refused(names: tuple[str, ...]) -> None:
+    block = UniformBlock("Probed", *FIELDS, register=False)
+    with pytest.raises(InvalidValueError):
+        block.run(*names)
+
+
+def test_what_is_there_is_not_uploaded_again(
+    ctx: moderngl.Context, keep: Callable[[Any], Any]
+) -> None:
+    block = UniformBlock("Probed", ("b_four", "vec4"), register=False)
+    buffer = keep(BlockBuffer(ctx, block, 3))
+    held = buffer._buffer
+    buffer.upload()
+    assert held.read() == bytes(16)
+    held.write(b"\xff" * 16)
+    buffer.upload()
+    assert held.read() == b"\xff" * 16
+    buffer["b_four"] = 1.0
+    buffer.upload()
+    assert np.frombuffer(held.read(), np.float32).tolist() == [1.0] * 4
 
 
 @pytest.fixture

@@ -74,10 +74,11 @@ def work(ctx: moderngl.Context, gl: GL, guard: StateGuard) -> None:
     array, feedback_array = ctx.vertex_array(program, []), ctx.vertex_array(feedback, [])
     texture = ctx.texture((4, 4), 4, b"\x01" * 64)
     volume = ctx.texture3d((2, 2, 2), 1, b"\x01" * 8)
+    pictures = ctx.texture_array((2, 2, 2), 1, b"\x01" * 8)
     buffers = [ctx.buffer(reserve=256) for _ in range(2)]
     for unit in range(8):
         texture.use(unit)
-        volume.use(unit)
+        pictures.use(unit)
     ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
     ctx.blend_func = moderngl.ADDITIVE_BLENDING
     ctx.blend_equation = moderngl.MAX
@@ -102,7 +103,7 @@ def work(ctx: moderngl.Context, gl: GL, guard: StateGuard) -> None:
     buffers[0].write(b"\x01" * 16)
     texture.read_into(buffers[1])
     guard.bind_framebuffer()
-    for thing in (*buffers, volume, texture, array, feedback_array, program, feedback):
+    for thing in (*buffers, volume, pictures, texture, array, feedback_array, program, feedback):
         thing.release()
     for attachment in (*target.color_attachments, target.depth_attachment, target):
         attachment.release()

@@ -211,7 +211,7 @@ def test_the_map_is_what_its_oracle_says(
             data = replace(data, air=AirData(6.0, 0.8, 5.0, 0.0))
         if k:
             before, old = maps.read(), maps.seen.place
-            ages = time - maps.seen.times
+            ages = time - np.array(maps.seen.times)
         bands = maps.seen.band if k else 0
         maps.update(data, (x, 1.7, 0.0))
         found, expected = maps.expected(data, before, old, ages)

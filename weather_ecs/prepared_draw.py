@@ -24,5 +24,5 @@ class PreparedDraw:
         view = self.view
         if view.frame is not frame or view.key != observer:
             return False
-        same = np.array_equal(view.view, camera.view)
+        same = view.view is camera.view or np.array_equal(view.view, camera.view)
         return same and np.array_equal(view.projection, camera.projection)

@@ -94,12 +94,9 @@ class Scene:
     @staticmethod
     def place(time: float) -> NDArray[np.float64]:
         """Where the moving thing is at a time in s, (4, 4): it goes about in a circle."""
-        angle = 0.5 * time
-        transform = np.eye(4)
-        transform[0, 0] = transform[2, 2] = math.cos(angle)
-        transform[0, 2], transform[2, 0] = math.sin(angle), -math.sin(angle)
-        transform[:3, 3] = 5.0 * math.sin(angle), 0.0, -14.0 + 5.0 * math.cos(angle)
-        return transform
+        c, s = math.cos(0.5 * time), math.sin(0.5 * time)
+        rows = [c, 0.0, s, 5.0 * s], [0.0, 1.0, 0.0, 0.0], [-s, 0.0, c, -14.0 + 5.0 * c]
+        return np.array([*rows, [0.0, 0.0, 0.0, 1.0]])
 
     def draw(self, place: NDArray[np.float64]) -> None:
         """Into what is bound, with depth."""

@@ -22,6 +22,9 @@ AREA_DTYPE = np.dtype(
     ]
 )
 
+# The same without arrays in it, which numpy turns into lists one by one.
+_FLAT = np.dtype([("key", "i8"), *[(name, "f8") for name in "xzabhrsc"]])
+
 
 class AreaRow(NamedTuple):
     """A row of AREA_DTYPE as plain numbers, which Python reckons with much faster."""
@@ -35,12 +38,25 @@ class AreaRow(NamedTuple):
     ceiling: float
 
 
-def plain_areas(areas: NDArray) -> list[AreaRow]:
+# The array that was asked about last, and its rows: a frame's areas are looked at by many.
+_latest: tuple[NDArray | None, tuple[AreaRow, ...]] = (None, ())
+
+
+def plain_areas(areas: NDArray) -> tuple[AreaRow, ...]:
     """Areas, AREA_DTYPE, one by one."""
-    return [
-        AreaRow(key, tuple(center.tolist()), tuple(radii.tolist()), *more)
-        for key, center, radii, *more in areas.tolist()
-    ]
+    global _latest
+    known, rows = _latest
+    if areas is known:
+        return rows
+    rows = tuple(
+        [
+            AreaRow(key, (x, z), (a, b), heading, rate, soft, ceiling)
+            for key, x, z, a, b, heading, rate, soft, ceiling in areas.view(_FLAT).tolist()
+        ]
+    )
+    if not areas.flags.writeable:
+        _latest = (areas, rows)
+    return rows
 
 
 RAIN, SNOW = 0, 1  # kinds of containers

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from struct import Struct
 from typing import Any
 
 import moderngl
@@ -49,6 +50,14 @@ class Field:
         return f"{self.type} {self.name}" + (f"[{self.count}]" if self.count else "")
 
 
+@dataclass(frozen=True, slots=True)
+class Run:
+    """Fields of a block that are written together, as one flat row of numbers."""
+
+    layout: Struct
+    offset: int  # bytes
+
+
 class UniformBlock:
     """Layout of a uniform block.
 
@@ -82,6 +91,27 @@ class UniformBlock:
     def glsl(self) -> str:
         members = "".join(f"    {field.glsl};\n" for field in self.fields)
         return f"layout(std140) uniform {self.name}\n{{\n{members}}};\n"
+
+    def run(self, *names: str) -> Run:
+        """Some fields in their order, for `BlockBuffer.put`: a mat4 column by column.
+
+        Raises InvalidValueError for a name out of order and for arrays of less than a vec4.
+        """
+        places = {field.name: k for k, field in enumerate(self.fields)}
+        numbers = [places.get(name, -1) for name in names]
+        if not names or min(numbers) < 0 or sorted(set(numbers)) != numbers:
+            raise InvalidValueError(f"fields of block {self.name}", names, "names in their order")
+        fields = [self.fields[number] for number in numbers]
+        layout, end = "<", fields[0].offset
+        for field in fields:
+            scalar, components, _ = TYPES[field.type]
+            if field.stride not in (0, 4 * components):
+                raise InvalidValueError(f"field of {self.name}", field.name, "an array of vec4")
+            count = components * max(field.count, 1)
+            letter = {"<f4": "f", "<i4": "i", "<u4": "I"}[scalar]
+            layout += f"{field.offset - end}x{count}{letter}"
+            end = field.offset + 4 * count
+        return Run(Struct(layout), fields[0].offset)
 
     def binding(self, ctx: moderngl.Context) -> int:
         """The block's uniform-buffer binding in `ctx`."""
@@ -152,7 +182,9 @@ class BlockBuffer:
 
     `data`: the whole record (a 0-d structured array), to assign to by field name.
     `buffer["name"] = value`: the same through plain views: arrays in their own shape, a mat4 as the
-    matrix M that is used as M @ column vector. Nothing reaches the GPU before `upload`.
+    matrix M that is used as M @ column vector.
+    `buffer.put(run, *numbers)`: several fields at once, at a fifth of what they cost one by one.
+    Nothing reaches the GPU before `upload`.
     """
 
     def __init__(
@@ -160,8 +192,9 @@ class BlockBuffer:
     ) -> None:
         self.block = block
         self.binding = block.binding(ctx) if binding is None else binding
-        self._bytes: NDArray[np.uint8] = np.zeros(block.size, np.uint8)
-        self.data: NDArray[Any] = self._bytes.view(block.dtype).reshape(())
+        self._bytes = bytearray(block.size)
+        self._there = b""  # what the GPU has
+        self.data: NDArray[Any] = np.frombuffer(self._bytes, block.dtype).reshape(())
         self.views = {field.name: self._view(field) for field in block.fields}
         self._buffer: moderngl.Buffer | None = ctx.buffer(reserve=block.size, dynamic=True)
         self.holds: object = None  # what it was filled from, for whoever fills it to compare with
@@ -182,11 +215,19 @@ class BlockBuffer:
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.views[name]
 
+    def put(self, run: Run, *numbers: float) -> None:
+        """Write the numbers of a run of the block's fields."""
+        run.layout.pack_into(self._bytes, run.offset, *numbers)
+
     def upload(self) -> None:
-        """Replace the buffer's contents; what is still being drawn keeps the old ones."""
-        if self._buffer is not None:
+        """Replace the buffer's contents; what is still being drawn keeps the old ones.
+
+        Does nothing where they are the same: much of the weather stays for many frames.
+        """
+        if self._buffer is not None and self._there != self._bytes:
+            self._there = bytes(self._bytes)
             self._buffer.orphan()
-            self._buffer.write(self._bytes)
+            self._buffer.write(self._there)
 
     def bind(self) -> None:
         if self._buffer is not None:

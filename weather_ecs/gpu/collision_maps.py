@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import moderngl
 
-from weather_ecs.frame import ViewData
+from weather_ecs.frame import ViewData, plain_areas
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.heightmap import Heightmap
@@ -13,7 +13,7 @@ from weather_ecs.gpu.rain_blocks import SHELTER
 from weather_ecs.gpu.rain_pass import MOTION_UNIT, SHELTER_UNIT
 from weather_ecs.gpu.shader_loader import ShaderLoader
 from weather_ecs.gpu.weather_heightmap import WeatherHeightmap
-from weather_ecs.physics.footprint import fall_speed_over, landing_wind
+from weather_ecs.physics.footprint import landing_wind, mean_fall_speed
 
 
 class CollisionMaps:
@@ -58,8 +58,9 @@ class CollisionMaps:
             heightmap = Heightmap(self._ctx, self._guard, self._meshes, size)
             self._maps[view.key] = heightmap
         wind, reach = landing_wind(view.frame.wind, view.frame.profile), view.frame.look.reach
-        speed = fall_speed_over(view.frame.areas["rain_rate"], view.frame.air.snow_share)
-        if heightmap.footprint is not None and not view.frame.areas["rain_rate"].any():
+        rate = max([area.rain_rate for area in plain_areas(view.frame.areas)], default=0.0)
+        speed = mean_fall_speed(rate, view.frame.air.snow_share)
+        if heightmap.footprint is not None and rate == 0.0:
             # Nothing falls: the map stays as it was, for what is still wet.
             (x, z), speed = heightmap.footprint.slope, 1.0
             wind = (x, 0.0, z)

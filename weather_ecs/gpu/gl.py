@@ -12,7 +12,7 @@ from typing import Annotated, Any, TypeAlias, get_args, get_type_hints
 
 from weather_ecs.errors import ContextError
 from weather_ecs.gpu import gl_enums as e
-from weather_ecs.gpu.gl_platform import FUNCTION, current_source
+from weather_ecs.gpu.gl_platform import FUNCTION, QUICK, current_source
 
 U: TypeAlias = Annotated[int, ctypes.c_uint]
 I: TypeAlias = Annotated[int, ctypes.c_int]  # noqa: E741
@@ -44,6 +44,12 @@ SINCE = {
     "glGetTextureParameteriv": 450,
     "glGetTextureLevelParameteriv": 450,
 }
+
+
+# What only sets a state, or asks for one: quickly done, whatever the GPU is at.
+STATE = ("glIs", "glEnable", "glDisable", "glBind", "glActive", "glBlend", "glDepth", "glColor",
+         "glCull", "glFront", "glPolygon", "glLogic", "glProvoking", "glPrimitive", "glViewport",
+         "glScissor", "glPixelStore")  # fmt: skip
 
 
 class GL:
@@ -194,12 +200,13 @@ class GL:
     def reader(self, name: str) -> Callable[..., None]:
         """The function `name`, which takes `ctypes.byref` where OpenGL has a pointer.
 
-        Its arguments are not checked, which saves more than half of what a call costs.
+        Its arguments are not checked, which saves more than half of what a call costs. For what
+        only reads what the driver knows without asking the GPU.
         """
         address = self._lookup(name.encode())
         if not address:
             raise ContextError(f"the OpenGL library offers no {name}")
-        return FUNCTION(None)(address)  # type: ignore[no-any-return]
+        return QUICK(None)(address)  # type: ignore[no-any-return]
 
     def _read_version(self) -> int:
         """Version as moderngl counts it: 330 for OpenGL 3.3."""
@@ -270,5 +277,5 @@ def bind(address: int | None, name: str) -> Any:
     result, arguments, _ = _HINTS[name]
     if all(argument in INTEGERS for argument in arguments):
         # Without declared arguments ctypes passes an int as one of 32 bits, in half the time.
-        return FUNCTION(result)(address)
+        return (QUICK if name.startswith(STATE) else FUNCTION)(result)(address)
     return FUNCTION(result, *arguments)(address)

@@ -12,6 +12,9 @@ from weather_ecs.errors import ContextError
 
 ADDRESS = ctypes.c_void_p
 FUNCTION: Any = getattr(ctypes, "WINFUNCTYPE", ctypes.CFUNCTYPE)
+# Calls that neither wait nor take long keep Python's lock: to give it up and take it back is a
+# fifth of what such a call costs. Windows of 32 bits calls by another convention.
+QUICK: Any = ctypes.PYFUNCTYPE if ctypes.sizeof(ADDRESS) == 8 else FUNCTION
 
 Current = Callable[[], int | None]
 Lookup = Callable[[bytes], int | None]

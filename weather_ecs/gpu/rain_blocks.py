@@ -21,6 +21,7 @@ RAIN_STEP = UniformBlock(
     ("rain_time", "float"),  # s, the weather's clock at the end of the step
     ("impact_capacity", "uint"),  # of the list of impacts; 0: there is none
 )
+STEP = RAIN_STEP.run(*[field.name for field in RAIN_STEP.fields])
 
 # The camera and the light, the same for all that is drawn in one view.
 RAIN_VIEW = UniformBlock(
@@ -58,6 +59,7 @@ RAIN_DRAW = UniformBlock(
     ("drop_look", "vec4"),  # Eq. 3's maximum, size scale, width, opacity
     ("drop_dry", "vec4"),  # s, fall times of the drops that are missing; see rain_front.glsl
 )
+DRAW = RAIN_DRAW.run(*[field.name for field in RAIN_DRAW.fields])
 
 # The collision heightmap of one observer.
 SHELTER = UniformBlock(

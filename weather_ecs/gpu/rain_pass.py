@@ -15,7 +15,7 @@ from weather_ecs.gpu.impact_list import ImpactList
 from weather_ecs.gpu.kind_programs import MOTION_UNIT as MOTION_UNIT
 from weather_ecs.gpu.kind_programs import SHELTER_UNIT as SHELTER_UNIT
 from weather_ecs.gpu.kind_programs import KindPrograms, step_name
-from weather_ecs.gpu.rain_blocks import RAIN_DRAW, RAIN_STEP
+from weather_ecs.gpu.rain_blocks import DRAW, RAIN_DRAW, RAIN_STEP, STEP
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.streak_list import StreakList
 
@@ -163,17 +163,19 @@ class RainPass:
         count = drops_used(container, drops)
         drops.steps += 1
         before = drops.placed if drops.placed is not None else (container.axis, container.shape)
-        data = self._step_block.data
-        data["from_axis"], data["from_shape"] = before
-        data["to_axis"], data["to_shape"] = container.axis, container.shape
-        data["rain_dt"] = view.dt
-        data["rain_law"] = container.law
         seed = self._seed * 0x9E3779B1 + container.word * 0x85EBCA6B + drops.steps
-        data["rain_seed"] = seed & 0xFFFFFFFF
-        data["rain_count"] = count
-        data["rain_fresh"] = 0 if drops.placed is None else drops.alive
-        data["rain_time"] = view.frame.time
-        data["impact_capacity"] = impacts.capacity if impacts is not None else 0
+        self._step_block.put(
+            STEP,
+            *(*before[0], *before[1]),
+            *(*container.axis, *container.shape),
+            *container.law,
+            view.dt,
+            seed & 0xFFFFFFFF,
+            count,
+            0 if drops.placed is None else drops.alive,
+            view.frame.time,
+            impacts.capacity if impacts is not None else 0,
+        )
         self._step_block.upload()
         kind, step = self._kind(container.kind), step_name(sheltered, self._steady)
         kind.use(container, view)
@@ -224,10 +226,6 @@ class RainPass:
             return
         self._filled = (container, view)
         look, snow = view.frame.look, view.frame.flakes
-        data = self._draw_block.data
-        data["container_axis"], data["container_shape"] = container.axis, container.shape
-        data["area_axis"], data["area_shape"] = container.area_axis, container.area_shape
-        data["drop_law"], data["drop_dry"] = container.law, container.dry
         # A far drop is drawn larger, not fainter: of a shaft it is the grain.
         density = min(container.size_scale**2, 16.0) * container.cover
         if container.kind == SNOW:
@@ -237,8 +235,15 @@ class RainPass:
             density *= look.density
             shown = (look.size_maximum, container.size_scale, look.width, look.opacity)
         fade = 1.0 / max(_COUNT_FADE * container.count, 1.0)
-        data["drop_load"] = (container.load, container.count, fade, density)
-        data["drop_look"] = shown
+        self._draw_block.put(
+            DRAW,
+            *(*container.axis, *container.shape),
+            *(*container.area_axis, *container.area_shape),
+            *container.law,
+            *(container.load, container.count, fade, density),
+            *shown,
+            *container.dry,
+        )
         self._draw_block.upload()
 
     def _drops(self, seen: _Observed, container: ContainerData) -> DropSet:

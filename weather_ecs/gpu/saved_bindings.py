@@ -7,7 +7,7 @@ from typing import Any
 
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.gl import GL
-from weather_ecs.gpu.state_tables import MULTISAMPLE, TEXTURES
+from weather_ecs.gpu.state_tables import MADE, TEXTURES
 
 FEEDBACK_SLOTS = 4
 
@@ -20,7 +20,7 @@ class TextureUnits:
         self._count = min(count, gl.get_int(e.MAX_TEXTURE_IMAGE_UNITS))
         units = [unit for unit in range(self._count) if unit != own]
         bindings = [(unit, pair) for unit in units for pair in TEXTURES]
-        bindings += [(own, pair) for pair in (*TEXTURES, MULTISAMPLE)]
+        bindings += [(own, pair) for pair in (*TEXTURES, *MADE)]
         samplers = [(unit, (0, e.SAMPLER_BINDING)) for unit in range(self._count)]
         self._values = (ctypes.c_int * (len(bindings) + len(samplers)))()
         self._get = gl.reader("glGetIntegerv")
@@ -83,6 +83,8 @@ class Slots:
         self._buffer = (ctypes.c_int * max(count, 1))()
         self._get = gl.reader("glGetIntegeri_v")
         self._reads = [(first + i, ctypes.byref(self._buffer, 4 * i)) for i in range(count)]
+        # To see at once whether there is any: a host's bindings seldom reach up here.
+        self._bytes, self._nothing = memoryview(self._buffer).cast("B"), bytes(self._buffer)
         self._range = (ctypes.c_int64 * 2)()
         self._ranges: dict[int, tuple[int, int]] = {}
 
@@ -91,7 +93,7 @@ class Slots:
         for index, place in self._reads:
             get(name, index, place)
         self._ranges = {}
-        if any(self._buffer):
+        if self._bytes != self._nothing:
             address = ctypes.addressof(self._range)
             for (index, _), buffer in zip(self._reads, self._buffer, strict=False):
                 if buffer:

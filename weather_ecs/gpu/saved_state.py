@@ -32,6 +32,8 @@ class Values:
         self._baseline: list[tuple[Callable[..., None], tuple[float, ...]]] = []
         # Place and baseline of what only the host changes, and how to set it.
         self._unchanged: list[tuple[int, int, Callable[..., None], tuple[int, ...]]] = []
+        self._calls: list[tuple[Callable[..., None], tuple[Any, ...]]] = []  # that restore
+        self._calls_for: list[Any] = []  # the values they are for: mostly those of the last frame
         # Two to spare: the polygon mode is one value or two.
         self._buffer = (c_type * (sum(n for row in rows for _, n in row[2]) + 2))()
         self.values: list[Any] = []
@@ -75,8 +77,14 @@ class Values:
 
     def restore(self) -> None:
         values = self.values
-        for function, prefix, first, last in self._sets:
-            function(*prefix, *values[first:last])
+        if values != self._calls_for:
+            self._calls_for = list(values)
+            self._calls = [
+                (function, (*prefix, *values[first:last]))
+                for function, prefix, first, last in self._sets
+            ]
+        for function, arguments in self._calls:
+            function(*arguments)
         for place, wanted, setter, prefix in self._unchanged:
             if values[place] != wanted:
                 setter(*prefix, values[place])
@@ -96,6 +104,7 @@ class Switches:
     def __init__(self, gl: GL) -> None:
         self._gl = gl
         self._ours = [pair for pair in SWITCHES if known(gl, pair[0])]
+        self._place = {pair[0]: k for k, pair in enumerate(self._ours)}
         self._foreign = [capability for capability in FOREIGN if known(gl, capability)]
         self._on: list[int] = []
         self._foreign_on: list[int] = []
@@ -104,6 +113,10 @@ class Switches:
         is_enabled = self._gl.glIsEnabled
         self._on = [is_enabled(capability) for capability, _ in self._ours]
         self._foreign_on = [capability for capability in self._foreign if is_enabled(capability)]
+
+    def is_on(self, capability: int) -> int:
+        """Whether the host has one on that passes may switch."""
+        return self._on[self._place[capability]]
 
     def baseline(self) -> None:
         gl = self._gl
@@ -147,13 +160,20 @@ class SavedState:
         self._buffers = IndexedBuffers(gl, uniform_slots, storage_slots)
         self._targets = DrawTargets(gl)
         self._parts = (self._integers, self._floats, self._doubles, self._switches)
+        start = self._integers.start
+        # Of the first draw buffer, what `DrawTargets` reads of the others.
+        self._first = [start[e.COLOR_WRITEMASK] + k for k in range(4)]
+        if gl.glBlendFuncSeparatei is not None:
+            self._first += [start[name] for name in BLENDING]
 
     def save(self) -> None:
         for part in self._parts:
             part.save()
         self._textures.save()
         self._buffers.save()
-        self._targets.save(self.draw_framebuffer)
+        values = self._integers.values
+        first = self._switches.is_on(e.BLEND), *[values[place] for place in self._first]
+        self._targets.save(self.draw_framebuffer, first)
 
     def baseline(self) -> None:
         for part in self._parts:
@@ -214,7 +234,8 @@ class DrawTargets:
         self._place = ctypes.byref(self._scratch)
         self._different: list[tuple[int, tuple[int, ...]]] = []
 
-    def save(self, framebuffer: int) -> None:
+    def save(self, framebuffer: int, first: tuple[int, ...]) -> None:
+        """`first`: of the first draw buffer, what `_read` has of the others."""
         self._named = framebuffer != 0
         if self._named:
             get = self._get
@@ -222,7 +243,7 @@ class DrawTargets:
                 get(name, place)
         self._different = []
         # A host that blends its targets differently makes the second differ from the first.
-        if self._indices and self._read(1) != self._read(0):
+        if self._indices and self._read(1) != first:
             self._different = [(index, self._read(index)) for index in self._indices]
 
     def _read(self, index: int) -> tuple[int, ...]:

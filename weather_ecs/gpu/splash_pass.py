@@ -114,13 +114,16 @@ class SplashPass:
 
 def fill_splash(block: BlockBuffer, view: ViewData, look: SplashLook) -> None:
     """Write the looks of the splashes, what carries their droplets, and where there is water."""
+    waters = nearest_waters(view)
+    if block.holds == (look, view.frame.wind, waters):
+        return
+    block.holds = look, view.frame.wind, waters
     data = block.data
     data["splash_look"] = (look.size, look.largest, look.duration, look.opacity)
     data["splash_spray"] = (look.share, look.droplets, look.droplet_speed, look.spread)
     detail = max(look.detail, 1e-3)
     data["splash_pull"] = (*acceleration(view.frame.wind, look.drift), detail)
     data["splash_grain"] = (look.droplet_size * 1e-3, look.drift / RESPONSE, 0.0, 0.0)
-    waters = nearest_waters(view)
     for k, water in enumerate(waters):
         x, y, z = water.center
         u, w = water.size

@@ -143,8 +143,10 @@ FOREIGN: tuple[int, ...] = (
 TEXTURES: tuple[tuple[int, int], ...] = (
     (e.TEXTURE_2D, e.TEXTURE_BINDING_2D),
     (e.TEXTURE_2D_ARRAY, e.TEXTURE_BINDING_2D_ARRAY),
+)
+# More that moderngl may make, on its own unit only.
+MADE: tuple[tuple[int, int], ...] = (
     (e.TEXTURE_3D, e.TEXTURE_BINDING_3D),
     (e.TEXTURE_CUBE_MAP, e.TEXTURE_BINDING_CUBE_MAP),
+    (e.TEXTURE_2D_MULTISAMPLE, e.TEXTURE_BINDING_2D_MULTISAMPLE),
 )
-# Where moderngl makes multisampled textures: on its own unit only.
-MULTISAMPLE = (e.TEXTURE_2D_MULTISAMPLE, e.TEXTURE_BINDING_2D_MULTISAMPLE)

@@ -11,10 +11,23 @@ from numpy.typing import NDArray
 from weather_ecs.frame import SkyLight, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.flash import HAZE, VEIL, Flash, flash_of
-from weather_ecs.gpu.rain_blocks import MAX_LIGHTS
+from weather_ecs.gpu.rain_blocks import MAX_LIGHTS, RAIN_VIEW
 
 ENCODED = 1.0 / 2.2
 LOG2_E = 1.0 / math.log(2.0)  # shaders raise 2 to a power, which costs them less than e
+
+# What another camera or another time changes.
+CAMERA = RAIN_VIEW.run(
+    "view_projection",
+    "camera_position",
+    "camera_velocity",
+    "camera_forward",
+    "view_size",
+    "view_origin",
+    "view_depth",
+    "view_time",
+)
+LIGHT_COUNT = RAIN_VIEW.run("light_count")
 
 
 def encode(linear: NDArray) -> NDArray:
@@ -52,22 +65,23 @@ def _lights(sky: SkyLight) -> tuple[NDArray, NDArray]:
 
 def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int, int]) -> None:
     """Write camera and light of `view`, drawn into `viewport` (x, y, width, height in pixels)."""
-    data = block.data
     x, y, width, height = viewport
-    p = view.projection
-    block["view_projection"] = p @ view.view
-    pixels = 0.5 * height * float(p[1, 1])
+    seen, p = view.view.tolist(), view.projection.tolist()
+    pixels = 0.5 * height * p[1][1]
     look = view.frame.look
-    data["camera_position"] = (*view.position, pixels)
     speed = math.hypot(*view.velocity)
     slow = min(look.fastest / speed, 1.0) if speed > 0.0 else 1.0
-    data["camera_velocity"] = (*(v * slow for v in view.velocity), look.exposure)
-    forward = -view.view[2, :3]
-    data["camera_forward"] = (*forward.tolist(), 0.0)
-    data["view_size"] = (width, height, 0.0, 0.0)
-    data["view_origin"] = (x, y, 0.0, 0.0)
-    data["view_depth"] = (float(p[2, 2]), float(p[2, 3]), 0.0, 0.0)
-    data["view_time"] = (view.frame.time, view.dt, 0.0, 0.0)
+    block.put(
+        CAMERA,
+        *(view.projection @ view.view).T.ravel().tolist(),
+        *(*view.position, pixels),
+        *(*[v * slow for v in view.velocity], look.exposure),
+        *(*[-v for v in seen[2][:3]], 0.0),
+        *(width, height, 0.0, 0.0),
+        *(x, y, 0.0, 0.0),
+        *(p[2][2], p[2][3], 0.0, 0.0),
+        *(view.frame.time, view.dt, 0.0, 0.0),
+    )
     flash = flash_of(view.frame, view.position)
     # Light stays the same for many frames, but for lightning.
     light = (view.frame.sky, view.frame.fog, look.brightness) if flash is None else None
@@ -104,7 +118,7 @@ def _fill_lamps(block: BlockBuffer, view: ViewData) -> None:
         away = np.linalg.norm(lights["position"] - np.array(view.position), axis=1)
         lights = lights[np.argsort(away - lights["reach"], kind="stable")[:MAX_LIGHTS]]
         count = MAX_LIGHTS
-    block.data["light_count"] = count
+    block.put(LIGHT_COUNT, count)
     if count:
         block.data["light_position"][:count, :3] = lights["position"]
         block.data["light_position"][:count, 3] = lights["reach"]

@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from weather_ecs.frame import ViewData, WetnessData
+from weather_ecs.frame import ViewData, WetnessData, plain_areas
 from weather_ecs.physics.front import on_level_ground
 from weather_ecs.physics.ground_law import WATER, GroundLaw, SnowLaw
 from weather_ecs.physics.snow_cover import melt_rate
@@ -99,7 +99,7 @@ def _field(
 def rains_within(view: ViewData, reach: float) -> bool:
     """Whether an area may rain on what lies within `reach` m."""
     x, _, z = view.position
-    for _, (cx, cz), (a, _), _, rate, *_ in view.frame.areas.tolist():
+    for _, (cx, cz), (a, _), _, rate, _, _ in plain_areas(view.frame.areas):
         if rate > 0.0 and math.hypot(cx - x, cz - z) < a + reach:
             return True
     return False

@@ -38,6 +38,9 @@ class WetnessMap:
         far: tuple[float, float, float],
     ) -> None:
         """Places of map and far field, (x, z, side) in m, and the fall; None: there is no map."""
+        if self._block.holds == (frame, fall, far):
+            return
+        self._block.holds = frame, fall, far
         data = self._block.data
         data["weather_wet_frame"] = (*frame[:2], 1.0 / frame[2], 0.0)
         data["weather_wet_fall"] = (0.0, 0.0, 0.0, 0.0) if fall is None else (*fall, 1.0, 0.0)

@@ -12,47 +12,26 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 import moderngl
-import numpy as np
-from numpy.typing import NDArray
 
 from weather_ecs.frame import ViewData
 from weather_ecs.gpu import gl_enums as e
-from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
+from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.heightmap import Heightmap
 from weather_ecs.gpu.rain_pass import SHELTER_UNIT
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.gpu.wetness_block import AGES, COUNTS, PLACES, STEP, fill_areas
 from weather_ecs.gpu.wetness_far import HALF, WATCHED, FarField, rains_within, wet_within
 from weather_ecs.gpu.wetness_map import WetnessMap
-from weather_ecs.physics.front import SETTLED, steepness
+from weather_ecs.physics.footprint import Footprint
 from weather_ecs.physics.snow_cover import melt_rate
 from weather_ecs.physics.wet_map import BANDS, RINGS, MapPlace, place_over
 
-MAX_AREAS = 16
 ROUND = 1.2  # s in which every band has its turn
 LONGEST = 5.0  # s without an update, after which the map begins anew
 DRY_AFTER = 1800.0  # s without rain after which nothing is left to dry
 STATIC_UNIT, BEFORE_UNIT, FAR_UNIT = 2, 3, 4
 
-STEP = UniformBlock(
-    "WetStep",
-    ("wet_frame", "vec4"),  # middle, x and z at height 0, a texel, m; texels on a side
-    ("wet_old_frame", "vec4"),  # of the map before; 0 texels: there is none
-    ("wet_old_fall", "vec4"),
-    ("wet_shelter", "vec4"),  # the heightmap's low corner, m; 1 / its texel
-    ("wet_heights", "vec4"),  # m, of the heightmap's top
-    # Share of what falls that is snow, mm/s of it that melt, times that share that collects.
-    ("wet_snow", "vec4"),
-    ("wet_far_place", "vec4"),  # middle of the far field, m; 1 / its side
-    ("wet_ages", "vec4", BANDS // 4),  # s since each band's last update
-    ("wet_area_axis", "vec4", MAX_AREAS),
-    ("wet_area_shape", "vec4", MAX_AREAS),
-    ("wet_area_rate", "vec4", MAX_AREAS),  # mm/h; slope of the diameters in 1/mm
-    ("wet_area_dry", "vec4", MAX_AREAS),  # s, fall times of the drops that are missing
-    ("wet_areas", "int"),
-    ("wet_bands", "int"),  # rows in a band
-    ("wet_rings", "ivec2"),  # texels, radii in which a hollow is looked for
-)
 KEY = ProgramKey(vertex="fullscreen.vert", fragment="wetness_step.frag")
 
 
@@ -66,7 +45,8 @@ class _Observed:
     targets: list[moderngl.Framebuffer] = field(default_factory=list)
     current: int = 0
     place: MapPlace | None = None
-    times: NDArray[np.float64] = field(default_factory=lambda: np.zeros(BANDS))
+    over: Footprint | None = None  # that `place` lies over
+    times: list[float] = field(default_factory=lambda: [0.0] * BANDS)
     band: int = 0
     time: float = -math.inf  # s, of the last update
     number: int = 0  # of the ground the map began with
@@ -126,17 +106,20 @@ class WetnessPass:
     def _update_map(self, seen: _Observed, view: ViewData, heightmap: Heightmap) -> None:
         frame = view.frame
         assert heightmap.footprint is not None
-        place = place_over(heightmap.footprint, heightmap.size)
+        place = seen.place
+        if place is None or heightmap.footprint is not seen.over:
+            place = place_over(heightmap.footprint, heightmap.size)
+            seen.over = heightmap.footprint
         number = frame.wetness.number if frame.wetness is not None else 0
         fresh = seen.place is None or seen.place.size != place.size or number != seen.number
         if fresh or not 0.0 <= frame.time - seen.time <= LONGEST:
             self._resize(seen, place.size)
             seen.place, seen.number = None, number
-        elif place == seen.place and frame.time == seen.time:
+        moves = place is not seen.place and place != seen.place
+        if not moves and frame.time == seen.time:
             return
         if self._program is None:
             self._make_program()
-        moves = place != seen.place
         self._fill(seen, view, heightmap, place)
         heightmap.static_texture.use(STATIC_UNIT)
         heightmap.texture.use(SHELTER_UNIT)
@@ -145,7 +128,7 @@ class WetnessPass:
         if moves:
             self._render(seen, 1 - seen.current, 0, place.size)
             seen.current = 1 - seen.current
-            seen.times[:] = frame.time
+            seen.times = [frame.time] * BANDS
         else:
             bands = -(-place.size // place.rows)
             due = math.ceil(bands * min((frame.time - seen.time) / ROUND, 1.0))
@@ -177,37 +160,24 @@ class WetnessPass:
     def _fill(self, seen: _Observed, view: ViewData, heightmap: Heightmap, place: MapPlace) -> None:
         block, frame, footprint = self._block, view.frame, heightmap.footprint
         assert footprint is not None
-        data, old, texel = block.data, seen.place, 2.0 * footprint.half / heightmap.size
-        data["wet_frame"] = (*place.center, place.texel, place.size)
-        data["wet_old_frame"] = (*old.center, old.texel, old.size) if old else (0.0, 0.0, 1.0, 0.0)
-        data["wet_old_fall"] = (*(old.slope if old else place.slope), 0.0, 0.0)
-        low = [c - footprint.half for c in footprint.center]
-        data["wet_shelter"] = (*low, 1.0 / texel, 0.0)
-        data["wet_heights"] = (footprint.top, 0.0, 0.0, 0.0)
+        old, texel, now = seen.place, 2.0 * footprint.half / heightmap.size, frame.time
         share, melt = frame.air.snow_share, _melt_rate(frame.air.wet_bulb)
-        data["wet_snow"] = (share, melt, share * frame.flakes.settling, 0.0)
-        data["wet_far_place"] = (*seen.far.middle, 0.5 / HALF, 0.0)
-        block["wet_ages"].reshape(-1)[:] = np.maximum(frame.time - seen.times, 0.0)
-        data["wet_bands"] = place.rows
-        data["wet_rings"] = [max(round(radius / texel), 1) for radius in RINGS]
-        data["wet_areas"] = self._fill_areas(view)
+        x, z = footprint.center
+        block.put(
+            PLACES,
+            *(*place.center, place.texel, place.size),
+            *((*old.center, old.texel, old.size) if old else (0.0, 0.0, 1.0, 0.0)),
+            *(*(old.slope if old else place.slope), 0.0, 0.0),
+            *(x - footprint.half, z - footprint.half, 1.0 / texel, 0.0),
+            *(footprint.top, 0.0, 0.0, 0.0),
+            *(share, melt, share * frame.flakes.settling, 0.0),
+            *(*seen.far.middle, 0.5 / HALF, 0.0),
+        )
+        block.put(AGES, *[max(now - time, 0.0) for time in seen.times])
+        rings = [max(round(radius / texel), 1) for radius in RINGS]
+        block.put(COUNTS, fill_areas(block, view), place.rows, *rings)
         block.upload()
         block.bind()
-
-    def _fill_areas(self, view: ViewData) -> int:
-        """The areas that rain, at most MAX_AREAS, the nearest; returns how many they are."""
-        frame, data = view.frame, self._block.data
-        areas = frame.areas[frame.areas["rain_rate"] > 0.0]
-        if len(areas) > MAX_AREAS:
-            away = np.linalg.norm(areas["center"] - np.array(view.position)[[0, 2]], axis=1)
-            areas = areas[np.argsort(away - areas["radii"][:, 0], kind="stable")[:MAX_AREAS]]
-        for k, row in enumerate(areas.tolist()):
-            key, (x, z), (a, b), heading, rate, soft, ceiling = row
-            data["wet_area_axis"][k] = (x, z, math.cos(heading), math.sin(heading))
-            data["wet_area_shape"][k] = (a, b, min(soft, b), ceiling)
-            data["wet_area_rate"][k, :2] = (rate, steepness(rate))
-            data["wet_area_dry"][k] = frame.fronts.get(key, SETTLED)
-        return len(areas)
 
     def _publish(self, seen: _Observed) -> None:
         far, place = (*seen.far.middle, 2.0 * HALF), seen.place

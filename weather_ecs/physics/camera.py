@@ -32,7 +32,7 @@ class Camera:
 def matrix(value: Any, name: str) -> NDArray:
     """(4, 4) float64 from 16 column-major floats (a pyglet `Mat4`) or a (4, 4) array.
 
-    Raises InvalidValueError where the shape is another one or a value is not finite.
+    Raises InvalidValueError where the shape is another one.
     """
     try:
         array = np.asarray(tuple(value) if isinstance(value, Sequence) else value, dtype=np.float64)
@@ -42,9 +42,6 @@ def matrix(value: Any, name: str) -> NDArray:
         array = array.reshape(4, 4).T
     if array.shape != (4, 4):
         raise InvalidValueError(name, value, "16 column-major floats or a (4, 4) array")
-    # A sum is finite only if every term is, and of so few numbers numpy's takes longer.
-    if not math.isfinite(sum(map(sum, array.tolist()))):
-        raise InvalidValueError(name, value, "finite numbers")
     return array
 
 
@@ -58,18 +55,41 @@ def camera_from(view: Any, projection: Any) -> Camera:
 
     Raises InvalidValueError for a wrong shape, numbers that are not finite, or a singular matrix.
     """
-    v = matrix(view, "view")
-    p = matrix(projection, "projection")
+    given = {"view": view, "projection": projection}
+    v, p = [matrix(value, name).tobytes() for name, value in given.items()]
+    try:
+        return _camera(v, p)
+    except _UnusableError as error:
+        raise InvalidValueError(error.name, given[error.name], error.allowed) from error
+
+
+class _UnusableError(Exception):
+    """A matrix that no camera has: its name and what is allowed."""
+
+    def __init__(self, name: str, allowed: str) -> None:
+        super().__init__(name)
+        self.name, self.allowed = name, allowed
+
+
+# A frame is often asked about with the same matrices again: prepared and drawn, or paused.
+@lru_cache(maxsize=8)
+def _camera(view: bytes, projection: bytes) -> Camera:
+    """Of two (4, 4) float64 matrices row by row. Raises _UnusableError."""
+    v, p = [np.frombuffer(data).reshape(4, 4) for data in (view, projection)]
+    for name, array in (("view", v), ("projection", p)):
+        # A sum is finite only if every term is, and of so few numbers numpy's takes longer.
+        if not math.isfinite(sum(map(sum, array.tolist()))):
+            raise _UnusableError(name, "finite numbers")
     try:
         i = _inverse(v)
-        singular = _singular(p.tobytes())
+        singular = _singular(projection)
     except np.linalg.LinAlgError as error:
-        raise InvalidValueError("view", view, "an invertible matrix") from error
+        raise _UnusableError("view", "an invertible matrix") from error
     if singular:
-        raise InvalidValueError("projection", projection, "an invertible matrix")
+        raise _UnusableError("projection", "an invertible matrix")
     numbers = [abs(number) for row in i for number in row]
     if not math.isfinite(sum(numbers)) or max(numbers) > 1e12:
-        raise InvalidValueError("view", view, "an invertible matrix")
+        raise _UnusableError("view", "an invertible matrix")
     position = (i[0][3], i[1][3], i[2][3])
     forward = (-i[0][2], -i[2][2])
     if math.hypot(*forward) < 1e-6:  # straight up or down: the top of the picture is ahead

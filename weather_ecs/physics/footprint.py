@@ -142,7 +142,11 @@ def fall_speed_over(rain_rates: NDArray, snow_share: float = 0.0) -> float:
 
     Of what is mostly snow, that of the snow.
     """
-    rate = float(rain_rates.max()) if len(rain_rates) else 0.0
+    return mean_fall_speed(float(rain_rates.max()) if len(rain_rates) else 0.0, snow_share)
+
+
+def mean_fall_speed(rate: float, snow_share: float = 0.0) -> float:
+    """The same of one rain, mm/h."""
     return snow_speed_of(rate) if snow_share > 0.5 else fall_speed_of(rate)
 
 

@@ -52,6 +52,7 @@ from weather_ecs.systems.atmosphere import Daylight
 from weather_ecs.systems.cloud_list import NO_CLOUDS, CloudList
 from weather_ecs.systems.gauge import GaugeList
 from weather_ecs.systems.glance import Glance, look
+from weather_ecs.systems.kinds import Kinds
 from weather_ecs.systems.lightning import settings_of
 from weather_ecs.systems.looks import (
     cloud_look,
@@ -86,6 +87,7 @@ _KINDS = (
 )
 _MORE = {*SNAPSHOT_COMPONENTS.values(), Occluder, RainGauge} - {*_KINDS}
 _ALL: tuple[type[Component], ...] = (*_KINDS, *_MORE)
+_COUNT = len(_KINDS)
 _NO_AREAS = empty(AREA_DTYPE)
 _NO_LIGHTS = empty(LIGHT_DTYPE)
 
@@ -124,7 +126,7 @@ class ExtractSystem:
         self._strikes, self._lightning, self._brightness = StrikeList(), LightningLook(), 0.0
         self._time = -1.0
         self._seen: tuple[Any, ...] = ()  # what the last frame was made of
-        self._glance = Glance()
+        self._glance, self._kinds = Glance(), Kinds(_ALL)
 
     @property
     def gauges(self) -> dict[int, RainGauge]:
@@ -145,9 +147,9 @@ class ExtractSystem:
         """The weather now; the same object as before where nothing has changed."""
         if self._glance.same(state) and self._frame is not None:
             return self._frame
-        seen = look(state, _ALL)
+        seen = look(state, self._kinds)
         if seen != self._seen or self._frame is None:
-            self._extract(state, seen[0][: len(_KINDS)], seen[-1][: len(_KINDS)])
+            self._extract(state, seen[0][:_COUNT], seen[-1][:_COUNT])
             self._seen = seen
         self._glance.keep()
         assert self._frame is not None

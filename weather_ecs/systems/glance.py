@@ -6,31 +6,28 @@ A game asks for thousands of samples a frame, and each must know what the game h
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import esper
 
-from weather_ecs.components._base import Component, changed
+from weather_ecs.components._base import changed
+from weather_ecs.systems.kinds import Kinds, world_mark
 from weather_ecs.systems.queries import leaving
 from weather_ecs.systems.state import WeatherState
 
 
-def look(state: WeatherState, kinds: Sequence[type[Component]]) -> tuple[Any, ...]:
+def look(state: WeatherState, kinds: Kinds) -> tuple[Any, ...]:
     """All that can change: the kinds' revisions first, the lists of what there is of them last."""
-    lists: list[Any] = [esper.get_component(kind) for kind in kinds]
+    kinds.look()
+    lists = kinds.lists
     return (
-        [kind.revisions[0] for kind in kinds],
+        kinds.revisions,
         leaving(entity for pairs in lists for entity, _ in pairs),
         (state.clock.steps, state.clock.remainder),
         (state.fronts.number, state.fronts.revision, state.cloud_shapes.version),
         (state.clouds, state.course, state.drawn),
         lists,
     )
-
-
-class _Nothing:
-    """No entity has one."""
 
 
 class Glance:
@@ -52,10 +49,9 @@ class Glance:
 
     def same(self, state: WeatherState) -> bool:
         """Whether all is as it was when it was last kept."""
-        # esper keeps its answers, this empty one too, until an entity or a component comes or goes
-        # anywhere in its world; a deletion that is pending only shows in its set of those.
+        # A deletion that is pending only shows in esper's set of those.
         dead = getattr(esper, "_dead_entities", None)
-        self._probe = None if dead is None else esper.get_component(_Nothing)
+        self._probe = None if dead is None else world_mark()
         clock, fronts = state.clock, state.fronts
         self._now = (
             changed[0],

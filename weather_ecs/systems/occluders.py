@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -18,6 +19,9 @@ class OccluderList:
 
     def __init__(self) -> None:
         self._known: WeakKeyDictionary[Occluder, OccluderData] = WeakKeyDictionary()
+        # The living ones, and what they were the last time, in their order.
+        self._living: list[Occluder] = []
+        self._last: Sequence[OccluderData | None] = ()
         self._next_key = 0
         self._list: list[Any] | None = None
         self._state = -1, ALL_LAYERS, 0  # revision, layers, pending deletions
@@ -28,14 +32,19 @@ class OccluderList:
         pairs = esper.get_component(Occluder)
         # A deletion that is pending does not show in esper's list.
         state = Occluder.revision(), layers, leaving(entity for entity, _ in pairs)
+        if pairs is not self._list or state[2] != self._state[2]:
+            self._living = [occluder for _, occluder in living(Occluder)]
+            self._last = [self._known.get(occluder) for occluder in self._living]
         if pairs is not self._list or state != self._state:
             self._list, self._state = pairs, state
-            hit = [occluder for _, occluder in living(Occluder) if occluder.layers & layers]
-            self._data = tuple([self._of(occluder) for occluder in hit])
+            found = zip(self._living, self._last, strict=True)
+            now = [self._of(occluder, known) for occluder, known in found]
+            hit = zip(self._living, now, strict=True)
+            self._data = tuple([data for occluder, data in hit if occluder.layers & layers])
+            self._last = now
         return self._data
 
-    def _of(self, occluder: Occluder) -> OccluderData:
-        known = self._known.get(occluder)
+    def _of(self, occluder: Occluder, known: OccluderData | None) -> OccluderData:
         if (
             known is not None
             and known.transform is occluder.transform

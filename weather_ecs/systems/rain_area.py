@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.clock import STEP
 from weather_ecs.components import RainArea
-from weather_ecs.components._base import FAR
+from weather_ecs.components._base import FAR, count_assignment
 from weather_ecs.frame import AREA_DTYPE, WindProfile
 from weather_ecs.physics.front import SETTLED, Dry
 from weather_ecs.physics.wind import height_share
@@ -105,7 +105,7 @@ class RainAreaSystem:
                 x, z = area.center
                 put(area, (min(max(x + dx, -far), far), min(max(z + dz, -far), far)))
         if self._moving:
-            revision[0] += 1
+            count_assignment(self._moving[0][0])
         self._known = (revision[0], state.fronts.number)
 
 

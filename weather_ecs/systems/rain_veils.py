@@ -43,9 +43,10 @@ def veils(
         for c in containers
         if not c.key & 1
     }
-    shown = [placed[key].visible if key in placed else False for key in frame.areas["key"].tolist()]
-    for row in plain_areas(frame.areas[shown]):
-        container = placed[row.key]
+    for row in plain_areas(frame.areas):
+        container = placed.get(row.key)
+        if container is None or not container.visible:
+            continue
         if row.key not in frame.carried or eye - row.ceiling < _OVER:
             yield _veil(frame, row, container, counts, eye)
 

@@ -7,6 +7,7 @@ never runs it.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -130,7 +131,7 @@ class RainView:
             )
         rows: dict[int, AreaRow] = {}
         found: dict[int, Container] = {}
-        for row in plain_areas(frame.areas[_in_view(frame.areas, camera)]):
+        for row in _in_view(frame.areas, camera):
             before = seen.placed.get(row.key)
             rows[row.key] = row
             found[row.key] = place(
@@ -239,14 +240,14 @@ def _air_run(
     return x + wind[0] * dt, z + wind[2] * dt, turned + turning * dt
 
 
-def _in_view(areas: np.ndarray, camera: Camera) -> np.ndarray:
-    """Which areas rain and have a bounding circle that reaches into the camera's azimuths, (n,).
+def _in_view(areas: np.ndarray, camera: Camera) -> Sequence[AreaRow]:
+    """The areas that rain and have a bounding circle that reaches into the camera's azimuths.
 
     Areas out of view are many and must cost nothing; `place` is exact for the others, and quicker
     than this for a few.
     """
     if len(areas) <= _FEW:
-        return np.asarray(areas["rain_rate"] > 0.0)
+        return [row for row in plain_areas(areas) if row.rain_rate > 0.0]
     away = areas["center"] - (camera.position[0], camera.position[2])
     far = np.hypot(away[:, 0], away[:, 1])
     reach = areas["radii"][:, 0]
@@ -254,4 +255,4 @@ def _in_view(areas: np.ndarray, camera: Camera) -> np.ndarray:
     off = np.arctan2(-away[:, 1], away[:, 0]) - camera.heading
     off = np.abs((off + math.pi) % (2.0 * math.pi) - math.pi)
     seen = (far <= reach) | (off - half <= camera.half_width + math.radians(3.0))
-    return np.asarray((areas["rain_rate"] > 0.0) & seen)
+    return plain_areas(areas[(areas["rain_rate"] > 0.0) & seen])

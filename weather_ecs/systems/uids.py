@@ -7,6 +7,7 @@ from typing import Any
 import esper
 
 from weather_ecs.components import SNAPSHOT_COMPONENTS
+from weather_ecs.systems.kinds import world_mark
 
 _KINDS = tuple(SNAPSHOT_COMPONENTS.values())
 
@@ -26,6 +27,7 @@ class Uids:
         self.found: dict[type, tuple] = {}  # what `systems.queries` has found with these numbers
         self.held = False  # while only the systems run: they commit what they make
         self._lists: tuple[list[Any], ...] = ()
+        self._mark: object = None  # of the world, when the lists were asked for
         self._counter: object = None
 
     def current(self) -> dict[int, int]:
@@ -43,13 +45,9 @@ class Uids:
                 self.by_entity = {}
             self._counter = counter
             self._lists = ()
-        if self._lists:  # esper keeps its answers until something comes or goes
-            get = esper.get_component
-            for kind, before in zip(_KINDS, self._lists, strict=True):
-                if get(kind) is not before:
-                    break
-            else:
-                return self._current
+        mark = world_mark()
+        if self._lists and mark is self._mark:
+            return self._current
         lists = tuple([esper.get_component(kind) for kind in _KINDS])
         known = self.by_entity
         found = {pair[0] for pairs in lists for pair in pairs}
@@ -60,14 +58,15 @@ class Uids:
             if entity not in current:
                 current[entity] = following
                 following += 1
-        self._lists = lists
+        self._lists, self._mark = lists, mark
         self._current = current
         return current
 
     def commit(self) -> None:
         """Number the new entities for good and forget those that are gone."""
         held, self.held = self.held, False
-        if not all(map(esper.entity_exists, self._current)):
+        dead = getattr(esper, "_dead_entities", True)
+        if dead and not all(map(esper.entity_exists, self._current)):
             self._lists = ()  # a deletion is pending, of which the lists say nothing
         current = self.current()
         self.held = held
