@@ -1,4 +1,4 @@
-"""The picture in README, six moments of the demo: `python -m tools.showcase OUT.jpg [SCENE ...]`."""
+"""The picture in README: `python -m tools.showcase OUT.jpg [SCENE ...]`, moments of the demo."""
 
 from __future__ import annotations
 
