@@ -30,6 +30,7 @@ from weather_ecs.components import (
     Wind,
 )
 from weather_ecs.errors import SnapshotError
+from weather_ecs.snapshot_file import LARGEST, VERSION, seal
 
 pytestmark = pytest.mark.usefixtures("world")
 
@@ -254,12 +255,12 @@ def test_every_bit_comes_back(areas, winds, seed, dt):
 # Damaged and hostile bytes
 
 
-def sealed(content: bytes, version: int = snapshot.VERSION, length: int | None = None) -> bytes:
+def sealed(
+    content: bytes, version: int = VERSION, length: int | None = None, cells: bytes = b""
+) -> bytes:
     """A snapshot file with a fitting checksum around any content."""
-    packed = zlib.compress(content)
     length = len(content) if length is None else length
-    checksum = zlib.crc32(packed, zlib.crc32(struct.pack("<I", length)))
-    return struct.pack("<4sHII", b"WECS", version, length, checksum) + packed
+    return seal(zlib.compress(content), length, cells, version)
 
 
 def refused(data: object, match: str | None = None) -> None:
@@ -290,7 +291,8 @@ GOOD = snapshot.encode(DOCUMENT)
         (GOOD + b"x", "checksum"),
         (None, "bytes"),
         ("WECS", "bytes"),
-        (sealed(b"{}", version=2), "version 2"),
+        (sealed(b"{}", version=1), "version 1, this is 2"),
+        (sealed(b"{}", version=3), "version 3"),
         (sealed(b"{}", version=0), "version 0"),
         (sealed(b"[]"), "not an object"),
         (sealed(b"{}"), "parts"),
@@ -302,6 +304,10 @@ GOOD = snapshot.encode(DOCUMENT)
         (sealed(b"{}", length=1), "length"),
         (sealed(b"{}", length=3), "length"),
         (sealed(b"{}", length=2**31), "claims"),
+        (sealed(b"{}", cells=b"123"), "more cells"),
+        (sealed(b'{"snow":{"codes":4}}', cells=b"123"), "fewer cells"),
+        (sealed(b'{"snow":{"codes":-1}}', cells=b"123"), "fewer cells"),
+        (sealed(b'{"snow":' + b"[" * 900 + b"]" * 900 + b"}"), "parts|JSON"),
     ],
 )
 def test_damaged_bytes(data, match):
@@ -310,17 +316,17 @@ def test_damaged_bytes(data, match):
 
 def test_a_bomb_stops_at_the_length_it_claims():
     bomb = zlib.compress(b"0" * 50_000_000, 9)
-    for length in (10, snapshot.LARGEST, snapshot.LARGEST + 1):
-        checksum = zlib.crc32(bomb, zlib.crc32(struct.pack("<I", length)))
-        data = struct.pack("<4sHII", b"WECS", snapshot.VERSION, length, checksum) + bomb
+    for length in (10, LARGEST, LARGEST + 1):
         with pytest.raises(SnapshotError):
-            snapshot.decode(data)
+            snapshot.decode(seal(bomb, length))
 
 
 def test_bytes_after_the_end_of_the_compressed_part():
-    packed = zlib.compress(b"{}") + b"more"
-    checksum = zlib.crc32(packed, zlib.crc32(struct.pack("<I", 2)))
-    refused(struct.pack("<4sHII", b"WECS", snapshot.VERSION, 2, checksum) + packed, "length")
+    refused(seal(zlib.compress(b"{}") + b"more", 2), "decompressed")
+    data = seal(zlib.compress(b"{}"), 2)
+    rest = data[18:] + b"more"
+    checksum = zlib.crc32(rest, zlib.crc32(struct.pack("<II", 2, 0)))
+    refused(struct.pack("<4sHIII", b"WECS", VERSION, 2, 0, checksum) + rest, "length")
 
 
 def changed(*path: object, value: object) -> dict:

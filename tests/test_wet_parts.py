@@ -14,7 +14,7 @@ from weather_ecs.frame import AREA_DTYPE
 from weather_ecs.physics.ground_law import SnowLaw
 from weather_ecs.physics.rain_field import area_shares
 from weather_ecs.physics.wetness import DRYING, FILM, MM_PER_S
-from weather_ecs.systems import wet_path, wet_rest, wet_shares
+from weather_ecs.systems import wet_codes, wet_path, wet_rest, wet_shares
 from weather_ecs.systems.wet_rest import FINENESS, TRACE, Resting
 from weather_ecs.systems.wet_shares import Patterns, Shape
 from weather_ecs.systems.wet_tiles import MOST_TILES, WetTiles, level_of
@@ -155,13 +155,28 @@ def test_tiles_at_rest_come_back_out_of_their_state(places, seed, age):
 # What compresses
 
 
-@given(st.integers(0, 5), st.integers(0, 2**32 - 1), st.sampled_from([np.uint8, np.uint32]))
-def test_surprises_are_what_neighbours_do_not_tell(count, seed, kind):
-    top = np.iinfo(kind).max
-    codes = np.random.default_rng(seed).integers(0, top, (count, 8, 8), kind, endpoint=True)
-    assert np.array_equal(wet_rest.expected(wet_rest.surprises(codes)), codes)
-    flat = np.full((2, 8, 8), 7, kind)
-    assert np.count_nonzero(wet_rest.surprises(flat)) == 2  # the first cell of each tile
+NEAR = st.tuples(st.integers(-2, 2), st.integers(-2, 2))
+
+
+@given(st.sets(NEAR, max_size=12), st.integers(0, 2**32 - 1), st.sampled_from([1, 2, 3]))
+def test_what_neighbours_do_not_tell_comes_back(places, seed, planes):
+    order, top = sorted(places), 256**planes
+    codes = np.random.default_rng(seed).integers(0, top, (len(order), 8, 8)).astype(np.uint32)
+    raw = np.frombuffer(wet_codes.surprises(order, codes, planes), np.uint8)
+    assert len(raw) == 64 * planes * len(order)
+    assert np.array_equal(wet_codes.expected(order, raw, planes), codes)
+
+
+def test_where_neighbours_tell_all_there_is_little_to_keep():
+    order = [(0, 0), (0, 1), (1, 0), (1, 1), (3, 0)]
+    flat = np.full((5, 8, 8), 700, np.uint32)
+    values = np.frombuffer(wet_codes.surprises(order, flat, 2), np.uint8).reshape(2, 5, 64)
+    assert [np.count_nonzero(tile.any(axis=0)) for tile in values.swapaxes(0, 1)] == [1, 0, 0, 0, 1]
+    i, j = np.meshgrid(np.arange(8), np.arange(8))
+    slope = np.stack([300 + 5 * (8 * a + i) + 3 * (8 * b + j) for a, b in order[:4]])
+    raw = wet_codes.surprises(order[:4], slope.astype(np.uint32), 2)
+    values = np.frombuffer(raw, np.uint8).reshape(2, 4, 8, 8)
+    assert not values[:, 3].any() and not values[:, :, 1:, 1:].any()
 
 
 @given(st.sets(PLACES, max_size=20))

@@ -365,7 +365,7 @@ LEVEL = {
     "level": 0,
     "places": [[0], [0]],
     "codes": "00" * 128,
-    "resting": {"ages": [5], "codes": "50" + "00" * 63, "places": [[1], [0]]},
+    "resting": {"ages": [5], "codes": "a0" + "00" * 63, "places": [[1], [0]]},
     "melt": 0.0,
     "rows": [],
     "since": GOOD["ticks"] - 3,
@@ -434,7 +434,7 @@ BAD = [
             ("resting", {**LEVEL["resting"], "ages": [-1]}),
             ("resting", {**LEVEL["resting"], "ages": [5000]}),
             ("resting", {**LEVEL["resting"], "ages": []}),
-            ("resting", {**LEVEL["resting"], "codes": "ff" * 64}),
+            ("resting", {**LEVEL["resting"], "codes": "01" + "00" * 63}),
             ("resting", {**LEVEL["resting"], "codes": "00" * 64}),
             ("resting", {**LEVEL["resting"], "places": [[0], [0]]}),
         )

@@ -1,15 +1,10 @@
 """Snapshots: the whole deterministic state of a weather in a few kilobytes, and back.
 
-A header (magic, format version, length and CRC-32 of what follows) and zlib-compressed canonical
-JSON: sorted keys, no spaces, floats with as many digits as give them back to the bit. There is no
-code in it, and nothing in it is trusted.
+As a document of plain values here; `snapshot_file` has it as bytes.
 """
 
 from __future__ import annotations
 
-import json
-import struct
-import zlib
 from dataclasses import fields
 from math import inf, isfinite
 from typing import Any, NamedTuple
@@ -22,6 +17,8 @@ from weather_ecs.components import SNAPSHOT_COMPONENTS
 from weather_ecs.components._base import Component, set_unchecked
 from weather_ecs.errors import InvalidValueError, SnapshotError
 from weather_ecs.physics.ground_law import SnowLaw
+from weather_ecs.snapshot_file import decode as decode
+from weather_ecs.snapshot_file import encode as encode
 from weather_ecs.systems.cloud_field import CloudField
 from weather_ecs.systems.course import Course
 from weather_ecs.systems.rain_fronts import RainFronts
@@ -29,13 +26,9 @@ from weather_ecs.systems.state import WeatherState
 from weather_ecs.systems.strikes import StrikeField
 from weather_ecs.systems.wet_ground import WetGround
 
-MAGIC = b"WECS"
-VERSION = 1
-LARGEST = 32 * 1024 * 1024  # bytes of JSON; a bomb stops there
 MOST_UIDS = 2**53
 DEEPEST = 12  # a layer's skies, their models, seeds and roots with their vectors
 
-_HEADER = struct.Struct("<4sHII")  # magic, version, length of the JSON, CRC-32 of the rest
 _NAMES = {
     name: tuple(sorted(field.name for field in fields(kind)))  # type: ignore[arg-type]
     for name, kind in SNAPSHOT_COMPONENTS.items()
@@ -67,46 +60,6 @@ class Loaded(NamedTuple):
     entities: list[Entity]
     wet_ground: WetGround
     snow_ground: WetGround
-
-
-def encode(document: dict[str, Any]) -> bytes:
-    """Bytes of a JSON document. Raises ValueError for NaN and infinity."""
-    text = json.dumps(document, sort_keys=True, separators=(",", ":"), allow_nan=False).encode()
-    packed = zlib.compress(text, 6)
-    return _HEADER.pack(MAGIC, VERSION, len(text), _checksum(len(text), packed)) + packed
-
-
-def decode(data: bytes) -> dict[str, Any]:
-    """The JSON document of `encode`. Raises SnapshotError for anything else."""
-    if not isinstance(data, (bytes, bytearray, memoryview)):
-        raise SnapshotError(f"a snapshot is bytes, not {type(data).__name__}")
-    data = bytes(data)
-    if data[:4] != MAGIC[: len(data[:4])] or len(data) < 4:
-        raise SnapshotError("these bytes are not a weather snapshot")
-    if len(data) < _HEADER.size:
-        raise SnapshotError("the snapshot is cut off in its header")
-    _, version, length, checksum = _HEADER.unpack_from(data)
-    packed = data[_HEADER.size :]
-    if version != VERSION:
-        raise SnapshotError(f"the snapshot has format version {version}, this is {VERSION}")
-    if length > LARGEST:
-        raise SnapshotError(f"the snapshot claims {length} bytes, allowed are {LARGEST}")
-    if _checksum(length, packed) != checksum:
-        raise SnapshotError("the snapshot is damaged or cut off: its checksum does not fit")
-    try:
-        stream = zlib.decompressobj()
-        text = stream.decompress(packed, length + 1)
-    except zlib.error as error:
-        raise SnapshotError(f"the snapshot cannot be decompressed: {error}") from None
-    if len(text) != length or not stream.eof or stream.unused_data:
-        raise SnapshotError("the snapshot's content has another length than it claims")
-    try:
-        document = json.loads(text, parse_constant=_refuse_constant)
-    except (ValueError, RecursionError) as error:
-        raise SnapshotError(f"the snapshot's content is not valid JSON: {error}") from None
-    if not isinstance(document, dict):
-        raise SnapshotError("the snapshot's content is not an object")
-    return document
 
 
 def capture(state: WeatherState) -> dict[str, Any]:
@@ -277,11 +230,3 @@ def _integer(field: str, value: Any, most: int) -> int:
     if type(value) is not int or not 0 <= value <= most:
         raise InvalidValueError(field, value, f"a whole number in [0, {most}]")
     return value
-
-
-def _checksum(length: int, packed: bytes) -> int:
-    return zlib.crc32(packed, zlib.crc32(struct.pack("<I", length)))
-
-
-def _refuse_constant(name: str) -> float:
-    raise ValueError(f"{name} is not a number")

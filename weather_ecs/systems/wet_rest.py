@@ -15,14 +15,13 @@ from numpy.typing import NDArray
 
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.wetness import DRYING, FILM
+from weather_ecs.systems.wet_codes import Place, expected, surprises
 
 TRACE = 1e-2  # mm, less is dry
 FINENESS = 0.025  # of the logarithm of mm, of one code: 1.3 % either way
 DRIEST = 0.5 * TRACE  # mm, of code 1
 LARGEST_CODE = 1 + math.ceil(math.log(FILM / DRIEST) / FINENESS)
 LONGEST = math.ceil(DRYING * math.log(2.0 * FILM / TRACE)) + 1  # s after which all of it is dry
-
-Place = tuple[int, int]
 
 # mm by code.
 _WATER = DRIEST * np.exp(FINENESS * (np.arange(256) - 1.0))
@@ -106,7 +105,7 @@ class Resting:
         codes = np.array([tile.codes for tile in tiles], np.uint8).reshape(-1, 8, 8)
         return {
             "ages": steps(ages),
-            "codes": surprises(codes).tobytes().hex(),
+            "codes": surprises(order, codes, 1).hex(),
             "places": packed(order),
         }
 
@@ -125,12 +124,11 @@ class Resting:
         ages = np.cumsum(np.clip(ages, -LONGEST, LONGEST)).tolist()
         if not all(0 <= age <= LONGEST for age in ages):
             raise InvalidValueError("wetness.ages", state["ages"], f"ages of 0 to {LONGEST} s")
-        raw = raw_bytes(state["codes"], 64 * len(places)).reshape(-1, 8, 8)
-        codes = expected(raw)
+        codes = expected(places, raw_bytes(state["codes"], 64 * len(places)), 1)
         if int(codes.max(initial=0)) > LARGEST_CODE:
             raise InvalidValueError("wetness.codes", int(codes.max()), f"0 to {LARGEST_CODE}")
         for place, each, age in zip(places, codes, ages, strict=True):
-            found._add(place, each, -float(age))
+            found._add(place, each.astype(np.uint8), -float(age))
             if place not in found.tiles or found.tiles[place].dry <= 0.0:
                 raise InvalidValueError("wetness.resting", list(place), "tiles that are wet")
         return found
@@ -164,18 +162,6 @@ def unpacked(field: str, value: Any, most: int) -> list[Place]:
     if any(not -(2**31) <= n < 2**31 for place in places for n in place):
         raise InvalidValueError(field, value, "tiles of this world")
     return places
-
-
-def surprises(codes: NDArray[Any]) -> NDArray[Any]:
-    """What each cell's code (n, 8, 8) adds to what its neighbours let one expect."""
-    along = np.diff(codes, axis=1, prepend=codes.dtype.type(0))
-    return np.diff(along, axis=2, prepend=codes.dtype.type(0))
-
-
-def expected(values: NDArray[Any]) -> NDArray[Any]:
-    """The inverse of `surprises`."""
-    along = np.cumsum(values, axis=1, dtype=values.dtype)
-    return np.cumsum(along, axis=2, dtype=values.dtype)
 
 
 def raw_bytes(value: Any, count: int) -> NDArray[np.uint8]:

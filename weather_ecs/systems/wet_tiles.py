@@ -15,15 +15,8 @@ from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.ground_law import WATER, GroundLaw
 from weather_ecs.physics.rain_field import plain_rows
 from weather_ecs.physics.wetness import FILM, MM_PER_S
-from weather_ecs.systems.wet_rest import (
-    TRACE,
-    Resting,
-    expected,
-    packed,
-    raw_bytes,
-    surprises,
-    unpacked,
-)
+from weather_ecs.systems.wet_codes import expected, surprises
+from weather_ecs.systems.wet_rest import TRACE, Resting, packed, raw_bytes, unpacked
 from weather_ecs.systems.wet_shares import SIDE, Fallen, Patterns, Shape, moments
 
 FINEST, COARSEST = -2, 40  # levels; a cell is 2**level m wide
@@ -212,14 +205,11 @@ class WetTiles:
     def state(self) -> dict[str, Any]:
         """All there is to it, as plain values."""
         order = sorted(range(len(self._places)), key=self._places.__getitem__)
-        values = surprises(self._codes[order])
-        planes = [
-            (values >> np.uint32(8 * k)).astype(np.uint8) for k in reversed(range(self.law.planes))
-        ]
+        places = [self._places[k] for k in order]
         return {
-            "codes": b"".join([plane.tobytes() for plane in planes]).hex(),
+            "codes": surprises(places, self._codes[order], self.law.planes).hex(),
             "level": self.level,
-            "places": packed([self._places[k] for k in order]),
+            "places": packed(places),
             "resting": self._resting.state(),
         }
 
@@ -233,10 +223,8 @@ class WetTiles:
         if type(level) is not int or not FINEST <= level <= COARSEST:
             raise InvalidValueError("wetness.level", level, f"{FINEST} to {COARSEST}")
         places = unpacked("wetness.places", state["places"], MOST_TILES)
-        planes, values = law.planes, np.zeros(len(places) * SIDE * SIDE, np.uint32)
-        for plane in raw_bytes(state["codes"], planes * len(values)).reshape(planes, -1):
-            values = values << np.uint32(8) | plane
-        codes = expected(values.reshape(-1, SIDE, SIDE)) & np.uint32((1 << 8 * planes) - 1)
+        raw = raw_bytes(state["codes"], law.planes * len(places) * SIDE * SIDE)
+        codes = expected(places, raw, law.planes)
         tiles = cls(level, law)
         if int(codes.max(initial=0)) > tiles._steps:
             raise InvalidValueError("wetness.codes", int(codes.max()), f"0 to {tiles._steps}")
