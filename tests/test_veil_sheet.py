@@ -15,6 +15,7 @@ from weather_ecs.frame import VeilData, ViewData
 from weather_ecs.gpu import veil_pass
 from weather_ecs.gpu.renderer import Renderer
 from weather_ecs.gpu.veil_list import MOST, important, nearest, rays, rectangle
+from weather_ecs.gpu.veil_pass import halves
 from weather_ecs.physics.camera import Camera
 from weather_ecs.systems.rain_view import RainView
 
@@ -116,6 +117,24 @@ def test_a_small_area_is_drawn_where_the_scene_is_behind_it(
     whole = picture.draw(at, view)
     assert np.abs(whole - picture.draw(at, replace(view, veils=()))).max() > 10
     assert np.abs(alone - whole).max() <= 1
+
+
+@pytest.mark.parametrize("inside", [False, True])
+def test_one_wide_area_is_drawn_pixel_for_pixel(
+    picture: Picture, inside: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two take the sheets, and so does one that begins."""
+    at, view = look(inside)
+    first, second = view.veils[:2]
+    one = replace(view, veils=(first,))
+    alone = picture.draw(at, one)
+    monkeypatch.setattr(veil_pass, "LARGE", 10_000)
+    whole = picture.draw(at, one)
+    assert np.abs(whole - picture.draw(at, replace(view, veils=()))).max() > 10
+    assert np.abs(alone - whole).max() <= 1
+    changing = replace(first, dry=(20.0, 1e9, 0.0, 0.0))
+    for veils, sheets in (((first,), 0), ((first, second), 2), ((changing,), 1)):
+        assert len(halves(important(view, veils))[1]) == sheets
 
 
 def test_without_veils_that_matter_nothing_is_drawn(picture: Picture) -> None:

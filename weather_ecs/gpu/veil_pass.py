@@ -36,10 +36,11 @@ MIX = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
 class VeilPass:
     """Draws the veils of a view over the scene whose depth it is given.
 
-    Wide ones in large pictures by way of two coarse sheets: of what is before the empty sky, and
-    of the optical depth for a km before the scene, of which every pixel takes its own share. Of
-    small areas, which end among the things of the scene, it would be too little: they are drawn
-    pixel for pixel, each where the scene is not nearer than all of it.
+    Several wide ones in large pictures by way of two coarse sheets: of what is before the empty
+    sky, and of the optical depth for a km before the scene, of which every pixel takes its own
+    share. Of small areas, which end among the things of the scene, it would be too little: they are
+    drawn pixel for pixel, each where the scene is not nearer than all of it. So is the only wide
+    one, for which two sheets and what lays them over the picture would cost more.
     """
 
     def __init__(self, ctx: moderngl.Context, shaders: ShaderLoader) -> None:
@@ -164,8 +165,10 @@ class VeilPass:
 
 def halves(seen: Sequence[Seen]) -> tuple[list[Seen], list[Seen]]:
     """Those that are drawn pixel for pixel, and those by way of the sheets."""
-    small = [each for each in seen if each.veil.shape[0] < WIDE]
-    return small, [each for each in seen if each.veil.shape[0] >= WIDE]
+    wide = [each for each in seen if each.veil.shape[0] >= WIDE]
+    if len(wide) == 1 and wide[0].veil.dry == SETTLED:
+        return list(seen), []
+    return [each for each in seen if each.veil.shape[0] < WIDE], wide
 
 
 def look(some: Sequence[Seen]) -> tuple[str, ...]:
