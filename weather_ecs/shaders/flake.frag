@@ -1,7 +1,8 @@
 // A flake: its picture, blurred by its motion and where out of focus. FAR: of a few pixels, a soft
 // disc, which is what its picture comes to then.
-in vec2 gs_at;
-flat in vec4 gs_color;
+#include "packed_color.glsl"
+
+noperspective in vec4 gs_all;
 out vec4 color;
 #ifndef FAR
 uniform sampler2DArray flake_pictures;
@@ -11,12 +12,13 @@ flat in vec4 gs_frame;
 void main()
 {
     // The smallest pictures are even squares: their corners are cut off, as are blurred ones'.
-    float cover = clamp(1.8 - 1.3333 * dot(gs_at, gs_at), 0.0, 1.0);
+    float cover = clamp(1.8 - 1.3333 * dot(gs_all.xy, gs_all.xy), 0.0, 1.0);
+    vec4 own = unpack_color(gs_all.zw);
 #ifdef FAR
-    color = vec4(gs_color.rgb, gs_color.a * cover);
+    color = vec4(own.rgb, own.a * cover);
 #else
-    vec2 seen = textureLod(flake_pictures, vec3(gs_at * 0.5 + 0.5, gs_frame.x), gs_frame.y).rg;
+    vec2 seen = textureLod(flake_pictures, vec3(gs_all.xy * 0.5 + 0.5, gs_frame.x), gs_frame.y).rg;
     cover *= min(seen.r * gs_frame.z, 1.0);
-    color = vec4(gs_color.rgb * mix(seen.g, 1.0, gs_frame.w), gs_color.a * cover);
+    color = vec4(own.rgb * mix(seen.g, 1.0, gs_frame.w), own.a * cover);
 #endif
 }

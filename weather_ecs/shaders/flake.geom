@@ -1,19 +1,19 @@
 // Expands a flake to face the camera, drawn out along its way: a large one to the square of its
 // picture, a small one to a triangle of about its area, which costs half as much as one around it.
 layout(points) in;
+#include "packed_color.glsl"
 #include <block:RainView>
 
 in vec4 vs_head[];
 in vec4 vs_path[];
 in vec4 vs_color[];
 in vec4 vs_turn[];
-out vec2 gs_at;         // in the picture, -1 to 1
-flat out vec4 gs_color;
+noperspective out vec4 gs_all;  // place in the picture, -1 to 1; colour, packed
 #ifdef FAR
 layout(triangle_strip, max_vertices = 3) out;
 #else
 layout(triangle_strip, max_vertices = 4) out;
-flat out vec4 gs_frame; // layer, level, how much denser, share of even white
+flat out vec4 gs_frame;  // layer, level, how much denser, share of even white
 const float LARGE = 2.5;  // pixels, radius from which on it shows what a triangle cuts off
 #endif
 
@@ -29,8 +29,7 @@ void corner(vec2 at)
     vec2 turn = vs_turn[0].xy;
     uv = vec2(uv.x * turn.x - uv.y * turn.y, uv.x * turn.y + uv.y * turn.x);
     gl_Position = vec4(middle.xy + along * uv.x + across * uv.y, middle.z, 1.0);
-    gs_at = at;
-    gs_color = vec4(vs_color[0].rgb, opacity);
+    gs_all = vec4(at, pack_color(vec4(vs_color[0].rgb, opacity)));
 #ifndef FAR
     // Of a small picture the gaps between the arms are gone, and they must not make it pale.
     float small = smoothstep(0.5, 4.0, vs_turn[0].w);

@@ -2,14 +2,14 @@
 // as all its pixels. What has no width is left out here.
 layout(points) in;
 layout(triangle_strip, max_vertices = 3) out;
+#include "packed_color.glsl"
 #include <block:RainView>
 
 in vec4 vs_tail[];
 in vec4 vs_head[];
 in vec4 vs_color[];
 in float vs_width[];
-out vec2 gs_uv;
-flat out vec4 gs_color;
+noperspective out vec4 gs_all;  // across and along the streak; colour, packed
 
 // What the profile leaves of a quad, over what it leaves of the tapered triangle.
 const float TAPERED = 0.8577;
@@ -17,8 +17,7 @@ const float TAPERED = 0.8577;
 void corner(vec3 at, vec2 off, vec2 uv, float strength)
 {
     gl_Position = vec4(at.xy + off, at.z, 1.0);
-    gs_uv = uv;
-    gs_color = vec4(vs_color[0].rgb, vs_color[0].a * strength);
+    gs_all = vec4(uv, pack_color(vec4(vs_color[0].rgb, vs_color[0].a * strength)));
     EmitVertex();
 }
 

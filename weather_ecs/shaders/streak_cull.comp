@@ -24,7 +24,15 @@ shared uint found[128];  // by thread; the small ones in the upper half of the w
 layout(std430, binding = 0) readonly buffer Births { vec4 births[]; };
 
 const float FAR_PIXELS = 7.0;  // diameter up to which a flake's picture does not show
+const float LARGEST = 0.016;   // m, of a flake as it is: a clump of 4 mm of water
 const float FOCUS = 6.0;       // m; also in flake.vert
+
+// Of the largest of all flakes, m: what is farther off than it may be large needs no second look.
+float largest()
+{
+    float size = LARGEST * drop_look.z * drop_look.y * max(drop_look.x, 1.0) + snow_look.x;
+    return snow_motion.w == LIU_TONG ? 1.0 + snow_look.x : size;
+}
 
 // Whether a flake is small, about as flake.vert has it.
 bool is_small(uint id)
@@ -42,16 +50,19 @@ bool is_small(uint id)
 }
 #endif
 
-bool in_view(uint id)
+// deep: m, before the camera.
+bool in_view(uint id, out float deep)
 {
     uint k = id * 6u;
     vec3 v = vec3(drops[k + 3u], drops[k + 4u], drops[k + 5u]);
+    deep = 0.0;
     if (has_landed(v)) return false;
     vec3 p = vec3(drops[k], drops[k + 1u], drops[k + 2u]);
     // As in streak.vert, and a little wider: far streaks are drawn longer than this.
     vec4 head = view_projection * vec4(p, 1.0);
     vec4 tail = head
         - view_projection * vec4((v - camera_velocity.xyz) * camera_velocity.w, 0.0);
+    deep = head.w;
     if (min(head.w, tail.w) < 0.1) return false;
     vec2 h = head.xy / head.w;
     vec2 t = tail.xy / tail.w;
@@ -64,12 +75,23 @@ void main()
     uint first = gl_GlobalInvocationID.x * ROW;
     uint mask = 0u;
     uint small = 0u;
-    for (uint i = 0u; i < ROW; ++i)
-        if (first + i < streak_count && in_view(first + i)) mask |= 1u << i;
+    float large = 0.0;
 #ifdef SNOW
-    for (uint rest = mask; rest != 0u; rest &= rest - 1u)
+    large = largest() * camera_position.w / FAR_PIXELS;
+#endif
+    float deep;
+    for (uint i = 0u; i < ROW; ++i) {
+        if (first + i < streak_count && in_view(first + i, deep)) {
+            mask |= 1u << i;
+            if (deep > large) small |= 1u << i;
+        }
+    }
+#ifdef SNOW
+    for (uint rest = mask ^ small; rest != 0u; rest &= rest - 1u)
         if (is_small(first + uint(findLSB(rest)))) small |= rest & (~rest + 1u);
     mask ^= small;
+#else
+    small = 0u;
 #endif
     found[thread] = bitCount(mask) | bitCount(small) << 16u;
     barrier();
