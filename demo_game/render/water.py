@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +25,8 @@ from .programs import (
 
 RIPPLE_UNIT = 5
 POOL_RADIUS = 9.0  # m
+POOL_TINT = (0.55, 0.40, 0.22)  # display values
+UNSEEN = 0.4 / 255.0  # less of it adds nothing to a picture
 UNITS = {"detail_map": 1, "sky_map": 3}
 
 
@@ -72,21 +76,26 @@ class LampPools:
     """The lamps' light on the ground: the ground around them drawn again, added."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
-        self.ctx = ctx
+        self.ctx, self._block = ctx, block
         self.program = compile_program(ctx, "lamp_pool.vert", "lamp_pool.frag")
         block.attach(self.program)
-        self.program["tint"] = (0.55, 0.40, 0.22)
+        self.program["tint"] = POOL_TINT
         mesh = place.ground
         whole = mesh.indices[: mesh.chunks.sum(1).max()]  # without the coarse ones
         middle = mesh.vertices[whole].mean(1)
-        rows, self._ranges, first = [], [], 0
+        rows, self._first, first = [], [], 0
+        self._greatest = []  # light there may be in each triangle, falling
         for lamp in place.lamps[:-1]:
             x, _, z = lamp.position
             close = np.hypot(middle[:, 0] - x, middle[:, 2] - z) < POOL_RADIUS
-            points = mesh.vertices[whole[close].ravel()]
+            triangles = mesh.vertices[whole[close]]
+            greatest = max(lamp.color) * pool_light(np.array(lamp.position), triangles)
+            order = np.argsort(-greatest, kind="stable")
+            points = triangles[order].reshape(-1, 3)
             light = np.broadcast_to((*lamp.position, max(lamp.color)), (len(points), 4))
             rows.append(np.hstack([points, light]).astype("f4"))
-            self._ranges.append((first, len(points)))
+            self._first.append(first)
+            self._greatest.append(-greatest[order])
             first += len(points)
         self._centers = np.array([lamp.position for lamp in place.lamps[:-1]])
         self._vertices = ctx.buffer(np.concatenate(rows).tobytes())
@@ -94,18 +103,33 @@ class LampPools:
         self._array = ctx.vertex_array(self.program, content)
 
     def draw(self, planes: NDArray, camera: NDArray) -> None:
-        """Draw those that are seen; blending adds, depth is tested."""
+        """Draw those that are seen, as far as they add anything; depth is tested."""
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
         self.ctx.blend_func = moderngl.ONE, moderngl.ONE
         side = self._centers @ planes[:, :3].T + planes[:, 3]
         away = np.linalg.norm(self._centers - camera, axis=1)
+        burn, haze = (float(self._block.data[k][0, 3]) for k in ("sun_direction", "horizon_color"))
         for k in np.flatnonzero((side > -POOL_RADIUS).all(axis=1) & (away < 150.0)).tolist():
-            first, count = self._ranges[k]
-            self._array.render(moderngl.TRIANGLES, vertices=count, first=first)
+            left = burn * math.exp(-max(float(away[k]) - POOL_RADIUS, 0.0) * haze)
+            count = int(np.searchsorted(self._greatest[k], -UNSEEN / max(left, 1e-6)))
+            if count:
+                self._array.render(moderngl.TRIANGLES, vertices=3 * count, first=self._first[k])
 
     def release(self) -> None:
         """Give everything back."""
         release_all((self._array, self._vertices, self.program))
+
+
+def pool_light(lamp: NDArray, triangles: NDArray) -> NDArray:
+    """(n,) the most that lamp_pool.frag adds in triangles (n, 3, 3), at a strength of 1."""
+    a, b = np.meshgrid(np.linspace(0.0, 1.0, 6), np.linspace(0.0, 1.0, 6))
+    inside = a + b < 1.001
+    shares = np.stack([a, b, 1.0 - a - b], -1)[inside]
+    way = lamp - shares @ triangles
+    near2 = (way**2).sum(-1)
+    rim = np.clip(1.0 - (way[..., [0, 2]] ** 2).sum(-1) * 0.016, 0.0, 1.0)
+    light = 9.0 * np.clip(way[..., 1], 0.0, None) / (np.sqrt(near2) * (near2 + 1.5)) * rim**2
+    return np.asarray(max(POOL_TINT) * light.max(1))
 
 
 class Halos:
