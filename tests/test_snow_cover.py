@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.worlds import fresh_world
+from tests.worlds import fresh_world, let_pass
 from weather_ecs import Weather
 from weather_ecs.components import Air, Occluder, RainArea, SnowFlakes
 from weather_ecs.errors import InvalidValueError
@@ -53,11 +53,6 @@ def test_two_spans_are_one(snow, inflow, melt, seconds, share):
     assert at_once >= 0.0
 
 
-def run(seconds: float, dt: float = 0.5) -> None:
-    for _ in range(round(seconds / dt)):
-        esper.process(dt)
-
-
 @pytest.mark.usefixtures("world")
 def test_snow_collects_as_it_falls_and_melts_to_wet_ground():
     air = Air(COLD, 0.9)
@@ -65,23 +60,23 @@ def test_snow_collects_as_it_falls_and_melts_to_wet_ground():
     esper.create_entity(air)
     esper.create_entity(area)
     with Weather() as weather:
-        run(120.5)
+        let_pass(120.5)
         here = weather.sample((0, 0, 0))
         assert here.snow_rate == pytest.approx(10.0) and here.rain_rate == pytest.approx(0.0)
         assert here.snow_depth == pytest.approx(FALL * 120.5 / DENSITY, rel=0.01)
         assert here.wetness == 0.0
         assert weather.sample((300, 0, 0)).snow_depth == 0.0
         area.rain_rate = 0.0
-        run(60.0)
+        let_pass(60.0)
         assert weather.sample((0, 0, 0)).snow_depth == pytest.approx(here.snow_depth, rel=0.01)
         air.temperature = WARM
         thaw = float(melt_rate(weather._frame().air.wet_bulb))
-        run(8.0)
+        let_pass(8.0)
         left = FALL * 120.5 - thaw * 8.0
         here = weather.sample((0, 0, 0))
         assert here.snow_depth == pytest.approx(left / DENSITY, rel=0.1)
         assert here.wetness == pytest.approx(here.snow_depth * DENSITY / SOAKED * FILM)
-        run(120.0)
+        let_pass(120.0)
         assert weather.sample((0, 0, 0)).snow_depth == 0.0
         assert not weather._state.snow_ground.levels
 
@@ -92,13 +87,13 @@ def test_rain_leaves_no_snow_and_sleet_leaves_some_of_both():
     esper.create_entity(air)
     esper.create_entity(RainArea((0, 0), (60, 60), 10.0))
     with Weather() as weather:
-        run(30.0)
+        let_pass(30.0)
         assert weather.sample((0, 0, 0)).snow_depth == 0.0
         assert not weather._state.snow_ground.levels
         air.temperature, air.humidity = 0.9, 0.95
         share = weather._frame().air.snow_share
         assert 0.2 < share < 0.9
-        run(30.0)
+        let_pass(30.0)
         grown = (10.0 / 3600.0 * share - melt_rate(weather._frame().air.wet_bulb)) * 30.0
         assert weather.sample((0, 0, 0)).snow_depth * DENSITY == pytest.approx(grown, rel=0.05)
 
@@ -125,13 +120,13 @@ def test_a_snapshot_keeps_the_snow_to_the_bit():
         with fresh_world(), Weather() as weather:
             esper.create_entity(Air(COLD, 0.9))
             esper.create_entity(RainArea((0, 0), (60, 60), 10.0, velocity=(1.0, 0.5)))
-            run(70.0)
+            let_pass(70.0)
             return weather.snapshot()
 
     def go_on(data: bytes) -> tuple[bytes, float]:
         with fresh_world(), Weather() as weather:
             weather.restore(data)
-            run(33.0)
+            let_pass(33.0)
             return weather.snapshot(), weather.sample((0, 0, 0)).snow_depth
 
     half = lay()
@@ -143,7 +138,7 @@ def test_a_state_comes_back():
     with fresh_world(), Weather() as weather:
         esper.create_entity(Air(1.5, 1.0))
         esper.create_entity(RainArea((0, 0), (60, 60), 50.0))
-        run(20.0)
+        let_pass(20.0)
         state = json.loads(json.dumps(weather._state.snow_ground.state()))
     assert state["levels"] and state["melt"] > 0.0
     assert json.loads(json.dumps(WetGround.from_state(state, SnowLaw).state())) == state
@@ -201,7 +196,7 @@ def test_snow_may_collect_faster_than_in_nature():
     esper.create_entity(RainArea((0, 0), (60, 60), 10.0))
     esper.create_entity(SnowFlakes(settling=8.0))
     with Weather() as weather:
-        run(60.5)
+        let_pass(60.5)
         here = weather.sample((0, 0, 0))
         assert here.snow_depth == pytest.approx(8.0 * FALL * 60.5 / DENSITY, rel=0.01)
         assert here.snow_rate == pytest.approx(10.0) and here.wetness == 0.0

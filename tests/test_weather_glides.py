@@ -10,8 +10,7 @@ import esper
 import numpy as np
 import pytest
 
-from tests.whole_weathers import NAMES, rain
-from tests.worlds import fresh_world
+from tests.worlds import fresh_world, let_pass
 from weather_ecs import Weather
 from weather_ecs.components import SkyLayer
 from weather_ecs.errors import InvalidValueError, SnapshotError
@@ -19,6 +18,8 @@ from weather_ecs.systems.course import LIMITS, Conditions, Course
 from weather_ecs.weathers import WEATHERS, WholeWeather, heading_of
 
 pytestmark = pytest.mark.usefixtures("world")
+
+NAMES = list(WEATHERS)
 
 
 def conditions(weather: Weather) -> Conditions:
@@ -34,7 +35,7 @@ def conditions(weather: Weather) -> Conditions:
 def test_any_two_glide_into_each_other_in_the_time_given(one, other):
     with fresh_world(), Weather(seed=2) as weather:
         weather.change_to(one)
-        rain(1, 1.0)
+        let_pass(1, 1.0)
         start = conditions(weather)
         weather.change_to(other, 20.0)
         seen = [conditions(weather)]
@@ -58,7 +59,7 @@ def test_any_two_glide_into_each_other_in_the_time_given(one, other):
             assert steps.max() <= 1.5 * abs(b - a) / 80.0 + 1e-9, name
             assert abs(np.diff(steps)).max() <= 6.2 * abs(b - a) / 80.0**2 + 1e-9, name
         before, after = weather.whole.progress, seen[-1]
-        rain(2)
+        let_pass(2)
         assert (weather.whole.progress, conditions(weather)) == (before, after)
 
 
@@ -117,11 +118,11 @@ def test_no_time_at_all_is_at_once():
 def test_clouds_become_those_of_the_new_weather_and_empty_layers_go():
     with Weather(seed=4) as weather:
         weather.change_to("fair_cumulus")
-        rain(2)
+        let_pass(2)
         weather.change_to("overcast_drizzle", 30.0)
-        rain(30)
+        let_pass(30)
         weather.change_to("clear", 20.0)
-        rain(120, 1.0)
+        let_pass(120, 1.0)
         wanted = sum(bank.bank().clouds for bank in WEATHERS["clear"].banks)
         assert weather.stats.clouds == pytest.approx(wanted, abs=3)
         assert len(esper.get_component(SkyLayer)) == 1
@@ -145,21 +146,21 @@ def test_how_time_is_cut_does_not_matter():
 def test_a_snapshot_half_way_goes_on_to_the_byte():
     with Weather(seed=5) as first:
         first.change_to("fair_cumulus")
-        rain(5)
+        let_pass(5)
         first.change_to("thunderstorm", 40.0)
-        rain(17.3, 0.1)
+        let_pass(17.3, 0.1)
         first.change_to("snow", 25.0)
-        rain(9.1, 0.1)
+        let_pass(9.1, 0.1)
         data = first.snapshot()
         assert len(data) < 16_000
         now = first.whole
-        rain(40, 0.1)
+        let_pass(40, 0.1)
         later = first.snapshot()
     with fresh_world(), Weather() as second:
         second.restore(data)
         assert second.whole.conditions == now.conditions and second.whole.name == "snow"
         assert second.snapshot() == data
-        rain(40, 0.1)
+        let_pass(40, 0.1)
         assert second.snapshot() == later
 
 
@@ -167,7 +168,7 @@ def test_bad_courses_in_snapshots_are_refused():
     with Weather() as weather:
         weather.change_to("clear")
         weather.change_to("fog", 10.0)
-        rain(2)
+        let_pass(2)
         good = json.loads(json.dumps(weather._state.course.state()))
         assert Course.from_state(good).state() == good
         for field, value in (

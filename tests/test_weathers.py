@@ -10,8 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.whole_weathers import NAMES, rain
-from tests.worlds import fresh_world
+from tests.worlds import fresh_world, let_pass
 from weather_ecs import Weather, presets
 from weather_ecs.components import Air, RainArea, SkyLayer, Wind
 from weather_ecs.errors import InvalidValueError
@@ -21,6 +20,8 @@ from weather_ecs.systems.cloud_place import QUANTUM
 from weather_ecs.weathers import WEATHERS, CloudBank, WholeWeather
 
 pytestmark = pytest.mark.usefixtures("world")
+
+NAMES = list(WEATHERS)
 
 
 # How quantities glide
@@ -83,7 +84,7 @@ def test_each_is_put_up_whole_at_once():
 def test_bad_changes_are_refused_and_change_nothing(weather, transition):
     with Weather(seed=1) as it:
         it.change_to("fair_cumulus")
-        rain(3)
+        let_pass(3)
         before = it.snapshot()
         with pytest.raises(InvalidValueError):
             it.change_to(weather, transition)
@@ -122,7 +123,7 @@ def test_the_games_own_things_are_not_touched():
         mine = [esper.create_entity(each) for each in (area, wind, air)]
         weather.change_to("clear")
         weather.change_to("snow", 5.0)
-        rain(8)
+        let_pass(8)
         assert (area.center, area.rain_rate, wind.speed, air.temperature) == (
             (5, 5),
             7.0,
@@ -143,13 +144,13 @@ def test_a_game_moves_the_rain_along_and_may_take_it_away():
         assert area.center == (100, 200)
         area.center = (9000, 0)
         weather.change_to("thunderstorm", 2.0)
-        rain(3)
+        let_pass(3)
         assert area.center == (9000, 0) and area.rain_rate == 40.0
         esper.delete_entity(entity, immediate=True)
-        rain(3)
+        let_pass(3)
         assert "rain" not in weather.whole.entities
         weather.change_to("steady_rain", 1.0)
-        rain(2)
+        let_pass(2)
         assert weather.sample((0, 0, 0)).rain_rate == pytest.approx(5.0)
 
 

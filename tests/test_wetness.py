@@ -1,4 +1,4 @@
-"""Water on the ground: the law, and the weather's own coarse field of it, without OpenGL."""
+"""Water on the ground: the weather's own coarse field of it, without OpenGL."""
 
 from __future__ import annotations
 
@@ -12,100 +12,25 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.rain_frames import area
-from tests.worlds import fresh_world
+from tests.worlds import fresh_world, let_pass
 from weather_ecs import Weather
-from weather_ecs.components import Occluder, RainArea
-from weather_ecs.errors import InvalidValueError
+from weather_ecs.components import RainArea
 from weather_ecs.frame import AREA_DTYPE
 from weather_ecs.physics.ellipse import edge_factor
 from weather_ecs.physics.ground_law import WATER
 from weather_ecs.physics.rain_field import area_shares
 from weather_ecs.physics.wet_field import open_water
-from weather_ecs.physics.wetness import (
-    DRAINING,
-    DRYING,
-    FILM,
-    STEEP_FILM,
-    film_capacity,
-    merge,
-    merge_one,
-    settle,
-    settle_one,
-)
-from weather_ecs.systems.wet_ground import STEPS, WetGround
+from weather_ecs.physics.wetness import DRYING, FILM, settle, settle_one
 from weather_ecs.systems.wet_tiles import MOST_TILES, WetTiles, level_of
 
 pytestmark = pytest.mark.usefixtures("world")
-
-water = st.floats(0.0, 10.0)
-inflows = st.one_of(st.just(0.0), st.floats(1e-6, 3.0))
-capacities = st.floats(0.3, 60.0)
-times = st.floats(0.0, 5000.0)
-
-
-# The law
-
-
-@settings(deadline=None, max_examples=40)
-@given(water, inflows, capacities, st.floats(0.0, 600.0))
-def test_the_law_solves_its_equation(w, s, c, seconds):
-    steps = 20_000
-    expected, dt = w, seconds / steps
-    for _ in range(steps):
-        expected += dt * (s - expected / DRYING - max(expected - c, 0.0) / DRAINING)
-    assert settle_one(w, s, c, seconds) == pytest.approx(expected, rel=2e-3, abs=1e-3)
-
-
-@settings(deadline=None, max_examples=200)
-@given(st.lists(st.tuples(water, inflows, capacities), min_size=1, max_size=6), times, times)
-def test_two_steps_are_one(cells, first, second):
-    w, s, c = np.array(cells).T
-    once = settle(w, s, c, first + second)
-    twice = settle(settle(w, s, c, first), s, c, second)
-    np.testing.assert_allclose(twice, once, rtol=1e-6, atol=1e-9)
-    singly = [settle_one(*cell, first) for cell in cells]
-    np.testing.assert_allclose(singly, settle(w, s, c, first), rtol=1e-12, atol=1e-15)
-
-
-@settings(deadline=None, max_examples=100)
-@given(water, inflows, capacities, times)
-def test_water_stays_between_where_it_was_and_where_it_ends(w, s, c, seconds):
-    end = s * DRYING
-    if end > c:
-        end = (s + c / DRAINING) / (1.0 / DRYING + 1.0 / DRAINING)
-    now = settle_one(w, s, c, seconds)
-    assert min(w, end) - 1e-9 <= now <= max(w, end) + 1e-9
-    assert settle_one(w, s, c, 1e6) == pytest.approx(end, abs=1e-9)
-
-
-def test_steep_surfaces_hold_less():
-    held = film_capacity(np.linspace(0.0, 1.0, 50))
-    assert held[0] == STEEP_FILM and held[-1] == FILM
-    assert (np.diff(held) >= 0.0).all()
-
-
-@given(water, water)
-def test_fields_of_different_areas_fill_one_film(a, b):
-    both = float(merge(a, b))
-    assert max(a, b) - 1e-12 <= both <= a + b
-    assert float(merge(b, a)) == pytest.approx(both)
-    assert float(merge(a, 0.0)) == pytest.approx(a)
-    assert merge_one(a, b) == both
-
-
-# The ground
-
-
-def rain(seconds: float, step: float = 0.5) -> None:
-    for _ in range(round(seconds / step)):
-        esper.process(step)
 
 
 def test_a_minute_of_heavy_rain():
     weather = Weather()
     heavy = RainArea((0, 0), (70, 45), 25.0, soft_edge=12.0, onset=0.0)
     esper.create_entity(heavy)
-    rain(60)
+    let_pass(60)
     expected = settle_one(0.0, 25.0 / 3600.0, FILM, 60.0)
     assert expected == pytest.approx(0.354, abs=1e-3)
     assert weather.sample((0, 0, 0)).wetness == pytest.approx(expected, rel=1e-4)
@@ -113,9 +38,9 @@ def test_a_minute_of_heavy_rain():
     assert 0.0 < weather.sample((67, 0, 0)).wetness < 0.5 * expected
     assert weather.sample((76, 0, 0)).wetness == 0.0
     heavy.rain_rate = 0.0
-    rain(DRYING)
+    let_pass(DRYING)
     assert weather.sample((0, 0, 0)).wetness == pytest.approx(expected / math.e, rel=0.02)
-    rain(3600.0, 10.0)
+    let_pass(3600.0, 10.0)
     assert weather.sample((0, 0, 0)).wetness == 0.0
     assert not weather._state.wet_ground.levels
 
@@ -127,7 +52,7 @@ def test_wetness_of_a_point_follows_the_law_through_changing_rain():
     expected = 0.0
     for rate, seconds in ((5.0, 30), (80.0, 47), (0.0, 20), (300.0, 65), (0.0, 130), (1.0, 13)):
         it.rain_rate = rate
-        rain(seconds)
+        let_pass(seconds)
         expected = settle_one(expected, rate / 3600.0, FILM, seconds)
         assert weather.sample((1, 0, 2)).wetness == pytest.approx(expected, rel=0.02, abs=2e-3)
 
@@ -150,7 +75,7 @@ def test_a_shower_that_passes_leaves_wet_ground_that_dries():
     esper.create_entity(shower)
     seen = []
     for _ in range(100):
-        rain(1)
+        let_pass(1)
         seen.append(weather.sample((150, 0, 0)).wetness)
     # It comes at 22 s and is gone at 38 s.
     assert max(seen[:20]) == 0.0
@@ -181,7 +106,7 @@ def test_ground_under_moving_areas_follows_the_law():
                     at = points - center
                     share = area_shares(at[:, 0], at[:, 1], (0, 0), it.radii, heading, edge)
                     law = settle(law, share * rate / 3600.0, FILM, 0.1)
-                rain(13.3, 0.1)
+                let_pass(13.3, 0.1)
                 near = []
                 for x, z in points.tolist():
                     round_it = [(x + dx, 0, z + dz) for dx in (-4, 0, 4) for dz in (-4, 0, 4)]
@@ -195,10 +120,10 @@ def test_overlapping_areas_add_up_and_never_hold_more_than_a_film():
     weather = Weather()
     for size in (20, 80, 400):
         esper.create_entity(RainArea((0, 0), (size, size), 10.0))
-    rain(40)
+    let_pass(40)
     expected = settle_one(0.0, 30 / 3600, FILM, 40.0)
     assert weather.sample((0, 0, 0)).wetness == pytest.approx(expected, rel=0.02)
-    rain(1200, 10.0)
+    let_pass(1200, 10.0)
     steady = settle_one(0.0, 30 / 3600, FILM, 1e5)
     assert weather.sample((0, 0, 0)).wetness == pytest.approx(steady, rel=0.1)
 
@@ -219,10 +144,10 @@ def test_how_time_is_cut_into_frames_does_not_matter():
 def test_paused_weather_neither_wets_nor_dries():
     weather = Weather()
     esper.create_entity(RainArea((0, 0), (60, 60), 25.0))
-    rain(30)
+    let_pass(30)
     weather.paused = True
     before = weather.sample((0, 0, 0)).wetness
-    rain(30)
+    let_pass(30)
     assert weather.sample((0, 0, 0)).wetness == before > 0.0
 
 
@@ -232,7 +157,7 @@ def test_paused_weather_neither_wets_nor_dries():
 def test_any_size_of_area_takes_a_bounded_number_of_tiles(radii):
     weather = Weather()
     esper.create_entity(RainArea((123.0, -77.0), radii, 25.0, heading=0.7, velocity=(1, 0)))
-    rain(20)
+    let_pass(20)
     tiles = sum(len(level.tiles) for level in weather._state.wet_ground.levels.values())
     assert tiles < 300
     if min(radii) >= 0.4 and max(radii) < 100 * min(radii):
@@ -277,9 +202,9 @@ def test_what_the_gpu_begins_with_is_what_samples_say():
     for k, (x, size, speed) in enumerate(((0, 60, 2.0), (120, 40, 0.0), (60, 300, -4.0))):
         moving = RainArea((x, 0), (size, 0.7 * size), 5.0 + 9 * k, velocity=(speed, 1))
         esper.create_entity(moving)
-    rain(33.5, 0.1)
+    let_pass(33.5, 0.1)
     moving.rain_rate = 2.0
-    rain(0.4, 0.1)
+    let_pass(0.4, 0.1)
     frame = weather._frame()
     wet = frame.wetness
     points = np.random.default_rng(0).uniform(-250, 350, (500, 2))
@@ -288,168 +213,6 @@ def test_what_the_gpu_begins_with_is_what_samples_say():
     expected = [weather.sample((x, 0, z)).wetness for x, z in points.tolist()]
     np.testing.assert_allclose(got, expected, atol=1e-6)
     assert max(expected) > 0.1
-
-
-# Snapshots
-
-
-def wet_weather() -> Weather:
-    weather = Weather(seed=5)
-    esper.create_entity(RainArea((0, -70), (70, 45), 25.0, soft_edge=12.0))
-    esper.create_entity(RainArea((200, 0), (85, 48), 15.0, soft_edge=24, velocity=(5, 0)))
-    return weather
-
-
-def test_a_snapshot_holds_the_wet_ground_and_goes_on_alike():
-    with wet_weather() as first:
-        rain(47.3, 0.1)
-        data = first.snapshot()
-        assert len(data) < 4096
-        assert first.snapshot() == data
-        points = [(x, 0.0, z) for x in range(-80, 400, 37) for z in (-80, -30, 10)]
-        wet = [first.sample(p).wetness for p in points]
-        rain(31, 0.1)
-        later = first.snapshot()
-    with fresh_world(), Weather() as second:
-        second.restore(data)
-        assert [second.sample(p).wetness for p in points] == wet
-        assert second.snapshot() == data
-        rain(31, 0.1)
-        assert second.snapshot() == later
-
-
-def test_restoring_replaces_the_ground_and_says_so():
-    with wet_weather() as weather:
-        dry = weather.snapshot()
-        rain(30)
-        before = weather._frame().wetness.number
-        assert weather.sample((0, 0, -70)).wetness > 0.0
-        weather.restore(dry)
-        assert weather.sample((0, 0, -70)).wetness == 0.0
-        assert weather._frame().wetness.number != before
-
-
-def test_neither_asking_nor_occluders_show_in_a_snapshot():
-    def run(asks: bool) -> bytes:
-        with fresh_world(), wet_weather() as weather:
-            if asks:
-                vertices = np.eye(3) * 9.0 + (0, 5, 0)
-                esper.create_entity(Occluder(vertices, [0, 1, 2], dynamic=True))
-            for _ in range(50):
-                esper.process(0.3)
-                if asks:
-                    weather.sample((0, 0, -70))
-                    weather._frame()
-            return weather.snapshot()
-
-    assert run(True) == run(False)
-
-
-def state() -> dict:
-    with fresh_world(), wet_weather() as weather:
-        rain(20)
-        return json.loads(json.dumps(weather._state.wet_ground.state()))
-
-
-GOOD = state()
-
-
-def test_a_state_comes_back():
-    ground = WetGround.from_state(GOOD)
-    assert json.loads(json.dumps(ground.state())) == GOOD
-    assert ground.steps in range(STEPS)
-
-
-AREA = [0, [0, 0], [1, 1], 0, 5.0, 1, 400]
-LEVEL = {
-    "level": 0,
-    "places": [[0], [0]],
-    "codes": "00" * 128,
-    "resting": {"ages": [5], "codes": "a0" + "00" * 63, "places": [[1], [0]]},
-    "melt": 0.0,
-    "rows": [],
-    "since": GOOD["ticks"] - 3,
-    "way": [[2, [AREA]], [1, [AREA], [[0, 1, 4.0]]]],
-}
-NONE = {"ages": [], "codes": "", "places": [[], []]}
-RAINED = {**LEVEL, "since": GOOD["ticks"], "way": [], "rows": [AREA]}
-
-
-def test_the_level_that_the_bad_ones_are_made_of_is_good():
-    WetGround.from_state({**GOOD, "levels": [LEVEL]})
-    WetGround.from_state({**GOOD, "levels": [{**LEVEL, "places": [[], []], "codes": ""}]})
-    WetGround.from_state({**GOOD, "levels": [RAINED]})
-
-
-BAD = [
-    ("steps", STEPS),
-    ("steps", -1),
-    ("ticks", 1.5),
-    ("melt", -1.0),
-    ("melt", 0),
-    ("levels", {}),
-    ("levels", [1]),
-    ("levels", [LEVEL] * 2),
-    ("levels", [{k: v for k, v in LEVEL.items() if k != "codes"}]),
-    *[
-        ("levels", [{**RAINED, name: value}])
-        for name, value in (
-            ("rows", None),
-            ("rows", [AREA[:6]]),
-            ("rows", [[0, [0, 0], [1, 1], 0, 0.0, 1, 400]]),
-            ("rows", [[0, [0, 0], [1, 2], 0, 5.0, 1, 400]]),
-            ("rows", [[0.5, [0, 0], [1, 1], 0, 5.0, 1, 400]]),
-            ("rows", [AREA, AREA]),
-        )
-    ],
-    *[
-        ("levels", [{**LEVEL, name: value}])
-        for name, value in (
-            ("since", 10**9),
-            ("rows", [AREA]),
-            ("way", None),
-            ("way", [[3]]),
-            ("way", [[2, [AREA]]]),
-            ("way", [[4, [AREA]]]),
-            ("way", [[3, [AREA]], [0, [AREA]]]),
-            ("way", [[3.0, [AREA]]]),
-            ("way", [[3, [AREA], []]]),
-            ("way", [[3, [AREA], [[0, 1]]]]),
-            ("way", [[3, [AREA], [[0, 1, 0.0]]]]),
-            ("way", [[1, [AREA]]] * 7),
-            ("melt", 2.0),
-            ("melt", "fast"),
-            ("level", 99),
-            ("level", 0.0),
-            ("codes", "00" * 127),
-            ("codes", "zz" * 128),
-            ("codes", "ff" * 128),
-            ("codes", 5),
-            ("places", [[0], [2**40]]),
-            ("places", [[0, 0], [0, 0]]),
-            ("places", [[0]]),
-            ("places", [[0], [0.5]]),
-            ("places", 7),
-            ("resting", None),
-            ("resting", {**LEVEL["resting"], "ages": [-1]}),
-            ("resting", {**LEVEL["resting"], "ages": [5000]}),
-            ("resting", {**LEVEL["resting"], "ages": []}),
-            ("resting", {**LEVEL["resting"], "codes": "01" + "00" * 63}),
-            ("resting", {**LEVEL["resting"], "codes": "00" * 64}),
-            ("resting", {**LEVEL["resting"], "places": [[0], [0]]}),
-        )
-    ],
-    ("levels", [{**RAINED, "rows": [], "places": [[], []], "codes": "", "resting": NONE}]),
-    ("levels", [{**LEVEL, "places": [[1, -1], [0, 0]], "codes": "00" * 256}]),
-]
-
-
-@pytest.mark.parametrize(("name", "value"), BAD)
-def test_bad_states_are_refused(name, value):
-    with pytest.raises(InvalidValueError):
-        WetGround.from_state({**GOOD, name: value})
-    with pytest.raises(InvalidValueError):
-        WetGround.from_state({k: v for k, v in GOOD.items() if k != name})
 
 
 @settings(deadline=None, max_examples=30)

@@ -28,3 +28,9 @@ def fresh_world() -> Iterator[str]:
         esper.switch_world(before)
         if name in esper.list_worlds():
             esper.delete_world(name)
+
+
+def let_pass(seconds: float, step: float = 0.5) -> None:
+    """Process the current world for some seconds, in frames of a step."""
+    for _ in range(round(seconds / step)):
+        esper.process(step)
