@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 from tests.splash_capture import LOOKS, PICTURE, SplashCapture, impacts
+from tests.test_splash_picture import scene
 from tests.views import look_from, perspective
+from tests.weather_pictures import stage
 from weather_ecs.frame import DropLook, FrameData, SplashLook, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.impact_list import ImpactList
@@ -100,3 +102,15 @@ def test_nothing_is_listed_where_nothing_has_been_hit(ctx: moderngl.Context) -> 
     array = records()
     array["time"] = -1e6
     assert lists(ctx, array, SplashLook()) == ([], [])
+
+
+@pytest.mark.parametrize(("quality", "room"), [("medium", 4096), ("ultra", 30_000)])
+def test_there_is_room_for_one_in_four_drops(
+    ctx: moderngl.Context, quality: str, room: int
+) -> None:
+    with stage(ctx, quality=quality, backend="compute") as it:
+        scene()
+        it.play(2)
+        assert it.weather._renderer is not None
+        listed = it.weather._renderer._rain.impacts()
+        assert listed is not None and listed.capacity == room

@@ -111,8 +111,9 @@ class Heightmap:
             self._still = still
             self.static_captures += 1
         if self._motion.moves or not self._swept:
-            # Before the depth is copied: it is cleared, too.
-            self._motion_target.clear(STILL, STILL, STILL, 1.0, depth=1.0)
+            self._motion_target.use()
+            self._guard.gl.glClearColor(STILL, STILL, STILL, 1.0)
+            self._guard.gl.glClear(e.COLOR_BUFFER_BIT)
         self._copy_static()
         self._prepare(self._target)
         self._draw(moving, place, self._target, self._motion if self._motion.moves else None)

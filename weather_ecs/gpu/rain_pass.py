@@ -20,7 +20,7 @@ from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.streak_list import StreakList
 
 GROUP = 64 * 32  # drops that a work group of rain_step.comp moves
-SMALLEST_LIST, LARGEST_LIST = 4096, 16_384  # impacts; every reader goes over the whole list
+SMALLEST_LIST, LARGEST_LIST = 4096, 65_536  # impacts; every reader goes over the whole list
 # A set that no view has used for so many draws is given back.
 _KEPT_DRAWS = 600
 # The last tenth of the drops in use fades in; also in systems/rain_view.py.
