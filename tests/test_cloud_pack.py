@@ -72,7 +72,7 @@ def test_kinds_without_a_cloud_are_left_out() -> None:
     ids=str,
 )
 def test_other_bytes_are_refused(change: dict[str, Any]) -> None:
-    with pytest.raises(InvalidValueError, match="clouds|sky"):
+    with pytest.raises(InvalidValueError, match=r"clouds|sky"):
         unpack(pack(array(), TICK, LEAST) | change, TICK, LEAST, FOLLOWING)
 
 

@@ -14,8 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.boxes import CORNERS, TRIANGLES, box, placed
+from tests.heightmap_stage import REACH, Maps
 from tests.splash_capture import SplashCapture, impacts
-from tests.test_heightmap import REACH, Maps
 from tests.test_splash import LOOK, view_at
 from tests.test_splash_companions import AGE, FEW, crowns
 from tests.weather_pictures import stage
