@@ -146,6 +146,15 @@ def test_occluders_that_share_a_mesh_are_one_draw_and_those_outside_are_left_out
     drawn = meshes.draw(field, to_map)
     assert len(meshes) == 1
     assert len(within) <= drawn <= len(within) + 20
+    # One by one they are the same, in number and in place.
+    seen = []
+    ctx.enable_only(moderngl.DEPTH_TEST)
+    for parts in ([field], [[post] for post in field]):
+        target.clear(depth=1.0)
+        assert sum(meshes.draw(part, to_map) for part in parts) == drawn
+        seen.append(target.read(attachment=-1, components=1, dtype="f4"))
+    assert seen[0] == seen[1] and len(set(np.frombuffer(seen[0], np.float32))) > 1
+    ctx.enable_only(moderngl.NOTHING)
     meshes.release()
     shaders.release()
     for thing in (*target.color_attachments, target.depth_attachment, target):

@@ -65,7 +65,8 @@ class CollisionMaps:
             (x, z), speed = heightmap.footprint.slope, 1.0
             wind = (x, 0.0, z)
         time = view.frame.time
-        if heightmap.capture(occluders, view.position, reach, wind, speed, look.extent, time):
+        place = view.position, reach, wind, speed, look.extent
+        if heightmap.capture(occluders, *place, time) and heightmap.others:
             self._meshes.keep(occluders)
         heightmap.fill(self._block)
         self._block.upload()

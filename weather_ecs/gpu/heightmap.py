@@ -12,6 +12,7 @@ import logging
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from weather_ecs.frame import OccluderData
 from weather_ecs.gpu import gl_enums as e
@@ -65,6 +66,8 @@ class Heightmap:
         self._callbacks = False  # among what moves: the game may draw it elsewhere at any time
         self._broken: set[int] = set()
         self._slope = SlopeFollower()
+        self._matrix: tuple[Footprint, NDArray[np.float64]] | None = None  # to the map's clip space
+        self.others = False  # whether the last capture met other meshes than the one before
 
     def _layer(self) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
         texture = self._ctx.depth_texture((self.size, self.size))
@@ -93,19 +96,21 @@ class Heightmap:
         place = footprint(position, reach, wind, fall_speed, self.size, before, extent, slope)
         # An occluder that has not changed is the same object, and lists compare by identity.
         rests = self._motion.came_to_rest(time)
-        if occluders is self._seen and place == before and not (self._callbacks or rests):
+        stays = place is before or place == before
+        if occluders is self._seen and stays and not (self._callbacks or rests):
             return False
         self._seen = occluders
         still = [o for o in occluders if not o.dynamic and o.key not in self._broken]
         moving = [o for o in occluders if o.dynamic and o.key not in self._broken]
-        fresh = place != before or still != self._still
+        fresh = not stays or still != self._still
         self._callbacks = any(o.draw is not None for o in moving)
         if not fresh and moving == self._moving and not (self._callbacks or rests):
             return False
         self._motion.follow(moving, time)
         self.footprint = place
-        self._prepare(self._static_target)
+        self.others = fresh or _meshes_of(moving) != _meshes_of(self._moving)
         if fresh:
+            self._prepare(self._static_target)
             self._static_target.clear(depth=1.0)
             self._draw(still, place, self._static_target)
             self._still = still
@@ -115,7 +120,8 @@ class Heightmap:
             self._guard.gl.glClearColor(STILL, STILL, STILL, 1.0)
             self._guard.gl.glClear(e.COLOR_BUFFER_BIT)
         self._copy_static()
-        self._prepare(self._target)
+        if self._callbacks or not self._motion.moves:
+            self._prepare(self._target)
         self._draw(moving, place, self._target, self._motion if self._motion.moves else None)
         self._swept = not self._motion.moves
         self._moving = moving
@@ -141,7 +147,9 @@ class Heightmap:
         target: moderngl.Framebuffer,
         motion: OccluderMotion | None = None,
     ) -> None:
-        to_map = CLIP @ place.matrix()
+        if self._matrix is None or self._matrix[0] is not place:
+            self._matrix = place, CLIP @ place.matrix()
+        to_map = self._matrix[1]
         for occluder in occluders:
             if occluder.draw is None:
                 continue
@@ -159,9 +167,12 @@ class Heightmap:
         self._meshes.draw([o for o in occluders if o.draw is None], to_map, motion)
 
     def fill(self, block: BlockBuffer) -> None:
-        """Write what shaders need of this map into a block `Shelter`."""
+        """Write what shaders need of this map into a block `Shelter`, unless it is there."""
         assert self.footprint is not None
         place = self.footprint
+        if block.holds == (place, self.size):
+            return
+        block.holds = place, self.size
         block["shelter_matrix"] = place.matrix()
         span, texel = place.top - place.bottom, 2.0 * place.half / self.size
         block.data["shelter_size"] = (self.size, span, texel, 0.0)
@@ -172,3 +183,7 @@ class Heightmap:
         targets = self._motion_target, self._target, self._static_target
         for thing in (*targets, self.motion, self.texture, self.static_texture):
             thing.release()
+
+
+def _meshes_of(occluders: list[OccluderData]) -> list[int]:
+    return [id(o.vertices) for o in occluders]

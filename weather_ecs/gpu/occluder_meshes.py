@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
+from struct import Struct
 from typing import Any, TypeAlias
 
 import moderngl
@@ -16,6 +18,8 @@ from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 DRAW = ProgramKey(vertex="occluder.vert", fragment="occluder.frag")
 MOTION = ProgramKey(vertex="occluder.vert", fragment="occluder.frag", defines=("MOTION",))
 MATRIX_BYTES, MOTION_BYTES = 64, 48
+FEW = 4  # that share a mesh: so few are placed quicker without numpy
+COLUMNS = Struct("<16f")
 
 _Name: TypeAlias = tuple[int, int, bool]  # of vertices, of indices; with velocities
 
@@ -34,7 +38,7 @@ class _Mesh:
         self.arrays = (occluder.vertices, occluder.indices)
         points = np.ascontiguousarray(occluder.vertices, np.float32)
         low, high = points.min(axis=0), points.max(axis=0)
-        self.center = (0.5 * (low + high)).astype(np.float64)
+        self.center: list[float] = (0.5 * (low + high)).astype(np.float64).tolist()
         self.radius = 0.5 * float(np.linalg.norm(high - low))
         self._ctx, self._program, self._moving = ctx, program, moving
         self._vertices = ctx.buffer(points)
@@ -54,20 +58,40 @@ class _Mesh:
             content.append((self._motions, "4f 4f 4f/i", "in_x", "in_y", "in_z"))
         self._array = self._ctx.vertex_array(self._program, content, index_buffer=self._indices)
 
-    def draw(
-        self, matrices: NDArray[np.float64], motions: NDArray[np.float64] | None = None
-    ) -> None:
-        """Draw it once for each matrix, (n, 4, 4) for column vectors; motions: (n, 3, 4)."""
-        count = len(matrices)
+    def draw(self, count: int, matrices: bytes, motions: bytes | None = None) -> None:
+        """Draw it `count` times, float32: with matrices column by column; motions: (n, 3, 4)."""
         if count > self._room:
             self._release_room()
             self._make_room(1 << (count - 1).bit_length())
         self._matrices.orphan()
-        self._matrices.write(np.ascontiguousarray(matrices.transpose(0, 2, 1), np.float32))
+        self._matrices.write(matrices)
         if self._motions is not None and motions is not None:
             self._motions.orphan()
-            self._motions.write(np.ascontiguousarray(motions, np.float32))
+            self._motions.write(motions)
         self._array.render(moderngl.TRIANGLES, instances=count)
+
+    def placed(self, transform: NDArray[np.float64], to_map: NDArray[np.float64]) -> bytes | None:
+        """The matrix of one that stands so, column by column; None where it lies outside."""
+        m = (to_map @ transform).T.ravel().tolist()
+        x, y, z = self.center
+        for k in (0, 1):
+            a, b, c = m[k], m[4 + k], m[8 + k]
+            # How far the sphere about a mesh reaches in the map, which is sheared.
+            reach = self.radius * math.sqrt(a * a + b * b + c * c)
+            if abs(a * x + b * y + c * z + m[12 + k]) > 1.0 + reach:
+                return None
+        return COLUMNS.pack(*m)
+
+    def all_placed(
+        self, transforms: list[NDArray[np.float64]], to_map: NDArray[np.float64]
+    ) -> tuple[bytes, NDArray[np.intp]]:
+        """The same of many: the matrices of those within, and which they are."""
+        matrices = to_map @ np.array(transforms, np.float64)
+        level = matrices[:, :2]
+        at = np.abs(level[:, :, :3] @ np.array(self.center) + level[:, :, 3])
+        reach = self.radius * np.sqrt(np.square(level[:, :, :3]).sum(axis=2))
+        within = np.flatnonzero((at <= 1.0 + reach).all(axis=1))
+        return matrices[within].transpose(0, 2, 1).astype(np.float32).tobytes(), within
 
     def _release_room(self) -> None:
         for thing in (self._array, self._matrices, self._motions):
@@ -110,24 +134,30 @@ class OccluderMeshes:
                     program = self._programs[moving]
                     self._meshes[key] = _Mesh(self._ctx, program, occluder, moving)
             group.append(occluder)
-        drawn = 0
-        for key, group in groups.items():
-            mesh = self._meshes[key]
-            matrices = to_map @ np.array([o.transform for o in group], np.float64)
-            level = matrices[:, :2]
-            at = np.abs(level[:, :, :3] @ mesh.center + level[:, :, 3])
-            # How far the sphere about a mesh reaches in the map, which is sheared.
-            reach = mesh.radius * np.sqrt(np.square(level[:, :, :3]).sum(axis=2))
-            within = (at <= 1.0 + reach).all(axis=1)
-            count = int(np.count_nonzero(within))
-            if count:
-                motions = None if motion is None else np.array([motion.of(o) for o in group])
-                if count < len(matrices):
-                    matrices = matrices[within]
-                    motions = None if motions is None else motions[within]
-                mesh.draw(matrices, motions)
-                drawn += count
-        return drawn
+        return sum(
+            self._draw(self._meshes[key], some, to_map, motion) for key, some in groups.items()
+        )
+
+    @staticmethod
+    def _draw(
+        mesh: _Mesh,
+        group: list[OccluderData],
+        to_map: NDArray[np.float64],
+        motion: OccluderMotion | None,
+    ) -> int:
+        if len(group) <= FEW:
+            each = [(o, mesh.placed(o.transform, to_map)) for o in group]
+            shown = [o for o, matrix in each if matrix is not None]
+            matrices = b"".join([matrix for _, matrix in each if matrix is not None])
+        else:
+            matrices, within = mesh.all_placed([o.transform for o in group], to_map)
+            shown = [group[k] for k in within.tolist()]
+        if shown:
+            motions = None
+            if motion is not None:
+                motions = np.array([motion.of(o) for o in shown], np.float32).tobytes()
+            mesh.draw(len(shown), matrices, motions)
+        return len(shown)
 
     def keep(self, occluders: Iterable[OccluderData]) -> None:
         """Give back the meshes that none of `occluders` uses."""

@@ -44,7 +44,8 @@ class OccluderMotion:
                 seconds = min(time - mover.changed, HOLD)
                 if seconds > 0.0:
                     change = (data.transform - mover.data.transform)[:3] / seconds
-                    mover.motion = change if np.abs(change).max() > REST else None
+                    fastest = max(map(abs, change.ravel().tolist()))
+                    mover.motion = change if fastest > REST else None
                     mover.changed = time
                 mover.data = data
             self._movers[data.key] = mover
