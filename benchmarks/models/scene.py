@@ -95,8 +95,9 @@ class Scene:
     def place(time: float) -> NDArray[np.float64]:
         """Where the moving thing is at a time in s, (4, 4): it goes about in a circle."""
         c, s = math.cos(0.5 * time), math.sin(0.5 * time)
-        rows = [c, 0.0, s, 5.0 * s], [0.0, 1.0, 0.0, 0.0], [-s, 0.0, c, -14.0 + 5.0 * c]
-        return np.array([*rows, [0.0, 0.0, 0.0, 1.0]])
+        first, second = (c, 0.0, s, 5.0 * s), (-s, 0.0, c, -14.0 + 5.0 * c)
+        rows = (*first, 0.0, 1.0, 0.0, 0.0, *second, 0.0, 0.0, 0.0, 1.0)
+        return np.array(rows).reshape(4, 4)
 
     def draw(self, place: NDArray[np.float64]) -> None:
         """Into what is bound, with depth."""

@@ -59,7 +59,8 @@ class BoltPass:
 
     def draws(self, view: ViewData) -> bool:
         """Whether there is anything to draw."""
-        return bool((view.frame.strikes["light"] > FAINTEST).any())
+        strikes = view.frame.strikes
+        return len(strikes) > 0 and bool((strikes["light"] > FAINTEST).any())
 
     def distance(self, view: ViewData) -> float:
         """m from the camera to the middle of the brightest channel."""

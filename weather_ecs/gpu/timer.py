@@ -66,6 +66,21 @@ class QueryRing:
 class Measure:
     """What measures from `begin` to `end`, or in a `with`."""
 
+    _ring: QueryRing | None
+
+    def _take(self) -> tuple[int, ...] | None:
+        """Queries to measure with; None where all are under way."""
+        if self._ring is None:
+            return None
+        group = self._ring.take()
+        if group is None:  # nobody has asked for results of late
+            self._poll()
+            group = self._ring.take()
+        return group
+
+    def _poll(self) -> None:
+        """Take what the GPU has done."""
+
     def begin(self) -> None:
         """Measure from here on."""
 
@@ -102,8 +117,7 @@ class GpuTimer(Measure):
     def begin(self) -> None:
         if self._ring is None or self._open is not None:
             return
-        self._poll()
-        self._open = self._ring.take()
+        self._open = self._take()
         if self._open is not None:
             self._gl.glQueryCounter(self._open[0], e.TIMESTAMP)
 
@@ -141,17 +155,16 @@ class PrimitiveCounter(Measure):
     def __init__(self, gl: GL) -> None:
         self._gl = gl
         supported = gl.get_query(e.PRIMITIVES_GENERATED, e.QUERY_COUNTER_BITS) > 0
-        self._ring: QueryRing | None = QueryRing(gl, 1) if supported else None
+        self._ring = QueryRing(gl, 1) if supported else None
         self._open: tuple[int, ...] | None = None
         self._latest: int | None = None
 
     def begin(self) -> None:
         if self._ring is None or self._open is not None:
             return
-        self._poll()
         if self._gl.get_query(e.PRIMITIVES_GENERATED, e.CURRENT_QUERY):
             return
-        self._open = self._ring.take()
+        self._open = self._take()
         if self._open is not None:
             self._gl.glBeginQuery(e.PRIMITIVES_GENERATED, self._open[0])
 

@@ -69,18 +69,16 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     seen, p = view.view.tolist(), view.projection.tolist()
     pixels = 0.5 * height * p[1][1]
     look = view.frame.look
-    speed = math.hypot(*view.velocity)
+    (px, py, pz), (vx, vy, vz) = view.position, view.velocity
+    speed = math.hypot(vx, vy, vz)
     slow = min(look.fastest / speed, 1.0) if speed > 0.0 else 1.0
+    nx, ny, nz, _ = seen[2]
     block.put(
         CAMERA,
         *(view.projection @ view.view).T.ravel().tolist(),
-        *(*view.position, pixels),
-        *(*[v * slow for v in view.velocity], look.exposure),
-        *(*[-v for v in seen[2][:3]], 0.0),
-        *(width, height, 0.0, 0.0),
-        *(x, y, 0.0, 0.0),
-        *(p[2][2], p[2][3], 0.0, 0.0),
-        *(view.frame.time, view.dt, 0.0, 0.0),
+        *(px, py, pz, pixels, vx * slow, vy * slow, vz * slow, look.exposure),
+        *(-nx, -ny, -nz, 0.0, width, height, 0.0, 0.0, x, y, 0.0, 0.0),
+        *(p[2][2], p[2][3], 0.0, 0.0, view.frame.time, view.dt, 0.0, 0.0),
     )
     flash = flash_of(view.frame, view.position)
     # Light stays the same for many frames, but for lightning.

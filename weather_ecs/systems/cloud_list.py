@@ -18,6 +18,7 @@ from weather_ecs.systems.cloud_made import MadeClouds, Wind
 from weather_ecs.systems.cloud_shapes import Shape
 from weather_ecs.systems.cloud_view import LayerView, ease
 from weather_ecs.systems.clouds import STEPS, start_layer
+from weather_ecs.systems.kinds import world_mark
 from weather_ecs.systems.queries import alive
 from weather_ecs.systems.state import WeatherState
 
@@ -58,6 +59,7 @@ class CloudList:
         self._lists: list[Any] = []
         self._entities: list[int] = []
         self._now: tuple[Any, ...] = ()
+        self._clear: object = None  # mark of the world in which there is no cloud
 
     def collect(
         self, state: WeatherState, sky: SkyLight, wind: Wind, profile: WindProfile
@@ -66,9 +68,14 @@ class CloudList:
 
         Both are the same objects as before where nothing has changed.
         """
+        mark = world_mark()
+        if mark is self._clear:
+            return self._rows, self._shapes
         lists = [esper.get_component(kind) for kind in _KINDS]
         if self._is_clear() and not any(lists):
+            self._clear = mark
             return self._rows, self._shapes
+        self._clear = None
         revisions = tuple([kind.revision() for kind in _KINDS])
         light = state.cloud_shapes.version
         now = (state.clock.time, state.clouds, light, revisions, sky, wind, profile)

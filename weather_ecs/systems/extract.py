@@ -149,7 +149,7 @@ class ExtractSystem:
             return self._frame
         seen = look(state, self._kinds)
         if seen != self._seen or self._frame is None:
-            self._extract(state, seen[0][:_COUNT], seen[-1][:_COUNT])
+            self._extract(state, seen[0][:_COUNT], seen[-1])
             self._seen = seen
         self._glance.keep()
         assert self._frame is not None
@@ -161,7 +161,7 @@ class ExtractSystem:
         if (
             self._frame is None
             or revisions != self._revisions
-            or not all(map(is_, lists, self._lists))
+            or (lists is not self._lists and not all(map(is_, lists[:_COUNT], self._lists)))
             or not all(map(esper.entity_exists, self._entities))
             or (state.fronts.number, state.fronts.revision) != self._fronts_seen
         ):
