@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
+from struct import Struct
 
 import moderngl
-import numpy as np
 
 from weather_ecs.frame import ViewData
 from weather_ecs.gpu import gl_enums as e
@@ -19,6 +19,7 @@ from weather_ecs.gpu.timer import RING, PrimitiveCounter, QueryRing
 COUNT = ProgramKey(vertex="impact_count.vert", geometry="impact_count.geom")
 # With feedback every drop has to be looked at, so only one frame in so many is counted.
 _EVERY = 8
+COUNTS = Struct("<4I")  # COUNT_BYTES of them
 
 
 class ImpactCount:
@@ -55,7 +56,7 @@ class ImpactCount:
         elif self._done is not None:
             for _ in self._done.finished():
                 copy = self._waiting.popleft()
-                written, dropped, *before = np.frombuffer(copy.read(), np.uint32).tolist()
+                written, dropped, *before = COUNTS.unpack(copy.read())
                 self._latest = (written + dropped - sum(before)) & 0xFFFFFFFF
                 self._free.append(copy)
         return self._latest

@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from weather_ecs.frame import OccluderData
 from weather_ecs.gpu.occluder_motion import OccluderMotion
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.physics.vectors import Rows, product_columns
 
 DRAW = ProgramKey(vertex="occluder.vert", fragment="occluder.frag")
 MOTION = ProgramKey(vertex="occluder.vert", fragment="occluder.frag", defines=("MOTION",))
 MATRIX_BYTES, MOTION_BYTES = 64, 48
 FEW = 4  # that share a mesh: so few are placed quicker without numpy
-COLUMNS = Struct("<16f")
+MATRIX, MOTION_ROWS = Struct("<16f"), Struct("<12f")
 
 _Name: TypeAlias = tuple[int, int, bool]  # of vertices, of indices; with velocities
 
@@ -70,9 +71,9 @@ class _Mesh:
             self._motions.write(motions)
         self._array.render(moderngl.TRIANGLES, instances=count)
 
-    def placed(self, transform: NDArray[np.float64], to_map: NDArray[np.float64]) -> bytes | None:
+    def placed(self, transform: NDArray[np.float64], to_map: Rows) -> bytes | None:
         """The matrix of one that stands so, column by column; None where it lies outside."""
-        m = (to_map @ transform).T.ravel().tolist()
+        m = product_columns(to_map, transform.tolist())
         x, y, z = self.center
         for k in (0, 1):
             a, b, c = m[k], m[4 + k], m[8 + k]
@@ -80,7 +81,7 @@ class _Mesh:
             reach = self.radius * math.sqrt(a * a + b * b + c * c)
             if abs(a * x + b * y + c * z + m[12 + k]) > 1.0 + reach:
                 return None
-        return COLUMNS.pack(*m)
+        return MATRIX.pack(*m)
 
     def all_placed(
         self, transforms: list[NDArray[np.float64]], to_map: NDArray[np.float64]
@@ -146,7 +147,8 @@ class OccluderMeshes:
         motion: OccluderMotion | None,
     ) -> int:
         if len(group) <= FEW:
-            each = [(o, mesh.placed(o.transform, to_map)) for o in group]
+            rows = to_map.tolist()
+            each = [(o, mesh.placed(o.transform, rows)) for o in group]
             shown = [o for o, matrix in each if matrix is not None]
             matrices = b"".join([matrix for _, matrix in each if matrix is not None])
         else:
@@ -155,7 +157,7 @@ class OccluderMeshes:
         if shown:
             motions = None
             if motion is not None:
-                motions = np.array([motion.of(o) for o in shown], np.float32).tobytes()
+                motions = b"".join([MOTION_ROWS.pack(*motion.of(o)) for o in shown])
             mesh.draw(len(shown), matrices, motions)
         return len(shown)
 

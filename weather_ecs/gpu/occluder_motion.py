@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TypeAlias
 
 from weather_ecs.frame import OccluderData
 
 HOLD = 0.1  # s without a change after which a thing stands still; a game may move it less often
 REST = 1e-3  # m/s, of a transform's entries: less is standing still
+
+Motion: TypeAlias = tuple[float, ...]  # 12 numbers
 
 
 @dataclass(slots=True)
@@ -20,7 +20,7 @@ class _Mover:
 
     data: OccluderData
     changed: float  # s, when it was seen to have moved
-    motion: NDArray[np.float64] | None = None  # (3, 4), change of its transform in a second
+    motion: Motion | None = None  # change of its transform in a second
 
 
 class OccluderMotion:
@@ -43,9 +43,11 @@ class OccluderMotion:
             elif mover.data is not data:
                 seconds = min(time - mover.changed, HOLD)
                 if seconds > 0.0:
-                    change = (data.transform - mover.data.transform)[:3] / seconds
-                    fastest = max(map(abs, change.ravel().tolist()))
-                    mover.motion = change if fastest > REST else None
+                    # Of so few numbers numpy's arithmetic takes longer.
+                    now, before = data.transform.ravel().tolist(), mover.data.transform.ravel()
+                    pairs = zip(now[:12], before.tolist(), strict=False)
+                    change = tuple([(a - b) / seconds for a, b in pairs])
+                    mover.motion = change if max(map(abs, change)) > REST else None
                     mover.changed = time
                 mover.data = data
             self._movers[data.key] = mover
@@ -68,13 +70,12 @@ class OccluderMotion:
         """Whether anything does."""
         return self._moves
 
-    def of(self, data: OccluderData) -> NDArray[np.float64]:
-        """(3, 4): a point of the mesh, (x, y, z, 1), moves at so many m/s."""
+    def of(self, data: OccluderData) -> Motion:
+        """Of (3, 4), row by row: a point of the mesh, (x, y, z, 1), moves at so many m/s."""
         mover = self._movers.get(data.key)
         if mover is None or mover.motion is None or not self._moving(mover, self._time):
             return _STILL
         return mover.motion
 
 
-_STILL = np.zeros((3, 4))
-_STILL.setflags(write=False)
+_STILL: Motion = (0.0,) * 12

@@ -14,7 +14,7 @@ from weather_ecs.gpu.blocks import UniformBlock
 from weather_ecs.gpu.flake_blocks import flake_light
 from weather_ecs.gpu.flash import VEIL as VEIL_FLASH
 from weather_ecs.gpu.flash import flash_of
-from weather_ecs.gpu.view_block import cloud_light, encode, veil_light
+from weather_ecs.gpu.view_block import clip_columns, cloud_light, encode, veil_light
 from weather_ecs.physics.veil import longest_path
 
 MOST = 24  # drawn
@@ -81,7 +81,8 @@ def rays(view: ViewData) -> NDArray:
 
 def _rays(view: ViewData) -> tuple[Vector, Vector, Vector]:
     """Of the matrix that takes directions to x, y and w of the picture, the inverse's columns."""
-    x, y, _, w = [row[:3] for row in (view.projection @ view.view).tolist()]
+    m = clip_columns(view)
+    x, y, w = m[0:12:4], m[1:12:4], m[3:12:4]
     middle, right, up = _cross(x, y), _cross(y, w), _cross(w, x)
     k = 1.0 / (x[0] * right[0] + x[1] * right[1] + x[2] * right[2])
     return _scaled(middle, k), _scaled(right, k), _scaled(up, k)
@@ -98,7 +99,8 @@ def _scaled(a: Vector, k: float) -> Vector:
 def rectangle(view: ViewData, seen: Sequence[Seen]) -> tuple[float, float, float, float]:
     """The part of the picture where the veils are: left, bottom, right, top, in -1 to 1."""
     whole = (-1.0, -1.0, 1.0, 1.0)
-    x, y, _, depth = (view.projection @ view.view).tolist()
+    m = clip_columns(view)
+    x, y, depth = m[0::4], m[1::4], m[3::4]
     falling = y[1] + depth[1]  # what a metre of height adds to the way from the lower edge
     if falling < 1e-3:
         return whole

@@ -12,6 +12,7 @@ from weather_ecs.frame import SkyLight, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.flash import HAZE, VEIL, Flash, flash_of
 from weather_ecs.gpu.rain_blocks import MAX_LIGHTS, RAIN_VIEW
+from weather_ecs.physics.vectors import product_columns
 
 ENCODED = 1.0 / 2.2
 LOG2_E = 1.0 / math.log(2.0)  # shaders raise 2 to a power, which costs them less than e
@@ -63,6 +64,17 @@ def _lights(sky: SkyLight) -> tuple[NDArray, NDArray]:
     return drop_light(sky), encode(veil_light(sky))
 
 
+_latest: tuple[ViewData | None, list[float]] = (None, [])
+
+
+def clip_columns(view: ViewData) -> list[float]:
+    """The matrix from the world to clip space, column by column; several passes need a view's."""
+    global _latest
+    if _latest[0] is not view:
+        _latest = view, product_columns(view.projection.tolist(), view.view.tolist())
+    return _latest[1]
+
+
 def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int, int]) -> None:
     """Write camera and light of `view`, drawn into `viewport` (x, y, width, height in pixels)."""
     x, y, width, height = viewport
@@ -75,7 +87,7 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     nx, ny, nz, _ = seen[2]
     block.put(
         CAMERA,
-        *(view.projection @ view.view).T.ravel().tolist(),
+        *clip_columns(view),
         *(px, py, pz, pixels, vx * slow, vy * slow, vz * slow, look.exposure),
         *(-nx, -ny, -nz, 0.0, width, height, 0.0, 0.0, x, y, 0.0, 0.0),
         *(p[2][2], p[2][3], 0.0, 0.0, view.frame.time, view.dt, 0.0, 0.0),

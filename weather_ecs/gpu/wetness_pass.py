@@ -173,7 +173,7 @@ class WetnessPass:
             *(share, melt, share * frame.flakes.settling, 0.0),
             *(*seen.far.middle, 0.5 / HALF, 0.0),
         )
-        block.put(AGES, *[max(now - time, 0.0) for time in seen.times])
+        block.put(AGES, *[now - time for time in seen.times])
         rings = [max(round(radius / texel), 1) for radius in RINGS]
         block.put(COUNTS, fill_areas(block, view), place.rows, *rings)
         block.upload()

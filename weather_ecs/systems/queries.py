@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from typing import TypeVar
 
 import esper
@@ -54,17 +53,22 @@ def _first(pair: tuple[int, object]) -> int:
     return pair[0]
 
 
-@contextmanager
-def in_world(name: str) -> Iterator[None]:
+class in_world:  # no generator: that takes three times as long, in every frame
     """Work on another of esper's worlds and come back. Raises WeatherError if it is gone."""
-    before = esper.current_world
-    if before == name:
-        yield
-        return
-    if name not in esper.list_worlds():
-        raise WeatherError(f"the esper world {name!r} of this weather was deleted")
-    esper.switch_world(name)
-    try:
-        yield
-    finally:
-        esper.switch_world(before)
+
+    __slots__ = ("_before", "_name")
+
+    def __init__(self, name: str) -> None:
+        self._name, self._before = name, name
+
+    def __enter__(self) -> None:
+        self._before, name = esper.current_world, self._name
+        if self._before == name:
+            return
+        if name not in esper.list_worlds():
+            raise WeatherError(f"the esper world {name!r} of this weather was deleted")
+        esper.switch_world(name)
+
+    def __exit__(self, *error: object) -> None:
+        if self._before != self._name:
+            esper.switch_world(self._before)
