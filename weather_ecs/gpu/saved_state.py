@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.saved_bindings import IndexedBuffers, TextureUnits
+from weather_ecs.gpu.saved_targets import BLENDING, DrawTargets
 from weather_ecs.gpu.state_tables import (
     DOUBLES,
     FLOATS,
@@ -19,6 +20,8 @@ from weather_ecs.gpu.state_tables import (
     Row,
 )
 
+_Call: TypeAlias = tuple[Callable[..., None], tuple[Any, ...]]
+
 
 class Values:
     """State values of one C type, read and set by the rows of a table."""
@@ -28,12 +31,14 @@ class Values:
         size = ctypes.sizeof(c_type)
         self.start: dict[int, int] = {}  # place of a state value, by its name
         self._reads: list[tuple[int, Any]] = []
-        self._sets: list[tuple[Callable[..., None], tuple[int, ...], int, int]] = []
-        self._baseline: list[tuple[Callable[..., None], tuple[float, ...]]] = []
+        # How to set them, their places, and their baseline, which may be none.
+        self._sets: list[
+            tuple[Callable[..., None], tuple[int, ...], int, int, tuple[float, ...]]
+        ] = []
         # Place and baseline of what only the host changes, and how to set it.
         self._unchanged: list[tuple[int, int, Callable[..., None], tuple[int, ...]]] = []
-        self._calls: list[tuple[Callable[..., None], tuple[Any, ...]]] = []  # that restore
-        self._calls_for: list[Any] = []  # the values they are for: mostly those of the last frame
+        self._forth: list[_Call] = []  # to the baseline
+        self._back: list[_Call] = []
         # Two to spare: the polygon mode is one value or two.
         self._buffer = (c_type * (sum(n for row in rows for _, n in row[2]) + 2))()
         self.values: list[Any] = []
@@ -50,44 +55,54 @@ class Values:
             if parts[0][0] in UNCHANGED and baseline is not None:
                 self._unchanged.append((first, int(baseline[0]), function, prefix))
                 continue
-            self._sets.append((function, prefix, first, filled))
-            if baseline is not None:
-                self._baseline.append((function, (*prefix, *baseline)))
+            self._sets.append((function, prefix, first, filled, baseline or ()))
 
     def save(self) -> None:
         get = self._get
         for name, place in self._reads:
             get(name, place)
-        self.values = self._buffer[:]
+        values = self._buffer[:]
+        if values != self.values:
+            self.values = values
+            self._plan()
 
-    def baseline(self) -> None:
-        for function, arguments in self._baseline:
-            function(*arguments)
+    def _plan(self) -> None:
+        """How to come to the baseline from the values, and back; they are seldom others."""
         values = self.values
+        self._back = [
+            (function, (*prefix, *values[first:last]))
+            for function, prefix, first, last, _ in self._sets
+        ]
+        self._forth = [
+            (function, (*prefix, *wanted))
+            for function, prefix, first, _, wanted in self._sets
+            if wanted and tuple(values[first : first + len(wanted)]) != wanted
+        ]
         for place, wanted, setter, prefix in self._unchanged:
             if values[place] != wanted:
-                setter(*prefix, wanted)
+                self._forth.append((setter, (*prefix, wanted)))
+                self._back.append((setter, (*prefix, values[place])))
+
+    def replace(self, name: int, value: Any) -> None:
+        """Put back another value than the one that was saved."""
+        self.values[self.start[name]] = value
+        self._plan()
+
+    def baseline(self) -> None:
+        for function, arguments in self._forth:
+            function(*arguments)
 
     def reset(self) -> None:
         """The baseline whatever the values are now."""
-        for function, arguments in self._baseline:
-            function(*arguments)
-        for _, wanted, setter, prefix in self._unchanged:
-            setter(*prefix, wanted)
+        for function, prefix, _, _, wanted in self._sets:
+            if wanted:
+                function(*prefix, *wanted)
+        for _, level, setter, prefix in self._unchanged:
+            setter(*prefix, level)
 
     def restore(self) -> None:
-        values = self.values
-        if values != self._calls_for:
-            self._calls_for = list(values)
-            self._calls = [
-                (function, (*prefix, *values[first:last]))
-                for function, prefix, first, last in self._sets
-            ]
-        for function, arguments in self._calls:
+        for function, arguments in self._back:
             function(*arguments)
-        for place, wanted, setter, prefix in self._unchanged:
-            if values[place] != wanted:
-                setter(*prefix, values[place])
 
 
 def known(gl: GL, name: int) -> bool:
@@ -178,6 +193,8 @@ class SavedState:
     def baseline(self) -> None:
         for part in self._parts:
             part.baseline()
+        if self._targets.differ:
+            self._integers.reset()  # what the first target has says nothing of the others
         self._textures.baseline()
 
     def reset(self) -> None:
@@ -197,9 +214,9 @@ class SavedState:
             (e.CURRENT_PROGRAM, gl.glIsProgram),
             (e.UNIFORM_BUFFER_BINDING, gl.glIsBuffer),
         ):
-            place = integers.start[name]
-            if integers.values[place] and not there(integers.values[place]):
-                integers.values[place] = 0
+            value = integers.values[integers.start[name]]
+            if value and not there(value):
+                integers.replace(name, 0)
         for part in self._parts:
             part.restore()
         self._targets.restore()
@@ -215,64 +232,3 @@ class SavedState:
         first = self._integers.start[e.VIEWPORT]
         x, y, width, height = self._integers.values[first : first + 4]
         return x, y, width, height
-
-
-class DrawTargets:
-    """What belongs to single draw buffers: their choice, and blending and masks set one by one."""
-
-    def __init__(self, gl: GL) -> None:
-        self._gl = gl
-        count = min(gl.get_int(e.MAX_DRAW_BUFFERS), 8)
-        self._indices = range(1, count)
-        self._buffers = (ctypes.c_int * count)()
-        self._get, self._get_indexed = gl.reader("glGetIntegerv"), gl.reader("glGetIntegeri_v")
-        self._reads = [
-            (e.DRAW_BUFFER0 + i, ctypes.byref(self._buffers, 4 * i)) for i in range(count)
-        ]
-        self._named = False
-        self._scratch = (ctypes.c_int * 4)()
-        self._place = ctypes.byref(self._scratch)
-        self._different: list[tuple[int, tuple[int, ...]]] = []
-
-    def save(self, framebuffer: int, first: tuple[int, ...]) -> None:
-        """`first`: of the first draw buffer, what `_read` has of the others."""
-        self._named = framebuffer != 0
-        if self._named:
-            get = self._get
-            for name, place in self._reads:
-                get(name, place)
-        self._different = []
-        # A host that blends its targets differently makes the second differ from the first.
-        if self._indices and self._read(1) != first:
-            self._different = [(index, self._read(index)) for index in self._indices]
-
-    def _read(self, index: int) -> tuple[int, ...]:
-        gl, get, scratch, place = self._gl, self._get_indexed, self._scratch, self._place
-        get(e.COLOR_WRITEMASK, index, place)
-        values = [gl.glIsEnabledi(e.BLEND, index), *scratch]
-        if gl.glBlendFuncSeparatei is not None:
-            for name in BLENDING:
-                get(name, index, place)
-                values.append(scratch[0])
-        return tuple(values)
-
-    def restore(self) -> None:
-        gl = self._gl
-        if self._named:
-            gl.glDrawBuffers(len(self._buffers), ctypes.addressof(self._buffers))
-        for index, (blend, red, green, blue, alpha, *function) in self._different:
-            (gl.glEnablei if blend else gl.glDisablei)(e.BLEND, index)
-            gl.glColorMaski(index, red, green, blue, alpha)
-            if function and gl.glBlendFuncSeparatei and gl.glBlendEquationSeparatei:
-                gl.glBlendFuncSeparatei(index, *function[:4])
-                gl.glBlendEquationSeparatei(index, *function[4:])
-
-
-BLENDING = (
-    e.BLEND_SRC_RGB,
-    e.BLEND_DST_RGB,
-    e.BLEND_SRC_ALPHA,
-    e.BLEND_DST_ALPHA,
-    e.BLEND_EQUATION_RGB,
-    e.BLEND_EQUATION_ALPHA,
-)

@@ -17,6 +17,8 @@ def importances(
     area that is no longer among those that matter most keeps its slot until it has faded out, and
     only then does another come in.
     """
+    if before == wanted and len(wanted) <= slots and all(wanted.values()):
+        return dict(wanted)  # as it mostly is
     shown = before if before is not None else {}
 
     def rank(k: int) -> tuple[float, int]:

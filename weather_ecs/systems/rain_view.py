@@ -7,13 +7,21 @@ never runs it.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
 
-from weather_ecs.frame import SNOW, AreaRow, ContainerData, FrameData, ViewData, plain_areas
+from weather_ecs.frame import (
+    SNOW,
+    AreaRow,
+    ContainerData,
+    FrameData,
+    VeilData,
+    ViewData,
+    plain_areas,
+)
 from weather_ecs.physics.camera import Camera
 from weather_ecs.physics.container import (
     Area,
@@ -98,8 +106,10 @@ class RainView:
         seen.position, seen.time = camera.position, frame.time
         seen.air_run = _air_run(seen.air_run, frame, min(dt, 1.0))
         containers = self._containers(frame, camera, seen, settings, min(dt, 1.0))
-        veiled = settings.veil and frame.look.veil > 0.0
-        placed = {area: each.container for area, each in seen.placed.items()}
+        found: Iterable[VeilData] = ()
+        if settings.veil and frame.look.veil > 0.0:
+            placed = {area: each.container for area, each in seen.placed.items()}
+            found = veils(frame, placed, containers, camera.position[1])
         return ViewData(
             frame=frame,
             key=key,
@@ -109,7 +119,7 @@ class RainView:
             velocity=seen.velocity,
             dt=min(dt, _LONGEST_STEP),
             containers=tuple(containers),
-            veils=tuple(veils(frame, placed, containers, camera.position[1])) if veiled else (),
+            veils=tuple(found),
             air_run=seen.air_run,
         )
 
