@@ -45,6 +45,11 @@ class Timings:
         pairs = zip(self.seconds[slow], self.seconds[fast], strict=True)
         return statistics.median(a / b for a, b in pairs)
 
+    def added_ms(self, slow: str, fast: str) -> float:
+        """How many ms more a frame of `slow` takes than one of `fast`: median over rounds."""
+        pairs = zip(self.seconds[slow], self.seconds[fast], strict=True)
+        return statistics.median(a - b for a, b in pairs) * 1e3
+
     def row(self, case: Case) -> dict[str, Any]:
         """The case's row: its facts, then median, quartiles and frame rate."""
         samples = self.seconds[case.name]

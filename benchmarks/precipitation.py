@@ -8,8 +8,10 @@ alone over a plain background; a frame is a clear, a move and a draw.
 
 Ratios: `drops_at_56fps` in heavy rain at 1280x720, which is the bar; `times_the_papers` over the
 1000 of the paper; `drops_at_60fps`, `flakes_at_60fps` and the like, with `_640` at 640x360;
-`snow_over_rain` and `turbulence_share` at the same number, per particle and as a share of the
-frame; `fog_ms` of the pass over the whole picture.
+`snow_over_rain` (and with `_feedback`, by that backend) and `turbulence_share` at the same number,
+per particle and as a share of the frame; `fog_ms` of the pass over the whole picture. The two sides
+of each of these take turns every few frames, with nothing else between them, and the median over
+the turns counts: a machine whose speed drifts within seconds slows both alike.
 """
 
 from __future__ import annotations
@@ -35,6 +37,7 @@ COLD = Air(temperature=-5.0, humidity=0.9)
 SNOW_RATE = PRESETS["heavy_snow"].rain_rate
 EQUAL = 50_000  # particles, where kinds and winds are compared
 HIGH = 50_000  # drops of the quality `high`
+OFTEN = 3  # times more rounds for what is compared two by two
 
 
 def run(quick: bool) -> Result:
@@ -82,14 +85,15 @@ def own(drops: int) -> QualitySettings:
     return QualitySettings("held", drops, 1, 512, True)
 
 
-def rain(stage: Stage, drops: int, others: Sequence[object] = ()) -> OurRain:
+def rain(stage: Stage, drops: int, others: Sequence[object] = (), backend: str = "auto") -> OurRain:
     """Heavy rain of so many drops."""
-    return OurRain(stage, PRESETS["heavy"].rain_rate, quality=own(drops), others=others)
+    rate = PRESETS["heavy"].rain_rate
+    return OurRain(stage, rate, quality=own(drops), backend=backend, others=others)
 
 
-def snow(stage: Stage, drops: int) -> OurRain:
+def snow(stage: Stage, drops: int, backend: str = "auto") -> OurRain:
     """Heavy snow of so many flakes."""
-    return OurRain(stage, SNOW_RATE, quality=own(drops), others=[COLD])
+    return OurRain(stage, SNOW_RATE, quality=own(drops), backend=backend, others=[COLD])
 
 
 def preset_rows(stage: Stage, small: str, drops: int, rounds: int) -> list[dict[str, Any]]:
@@ -125,20 +129,37 @@ def cost_rows(
 ) -> tuple[list[dict[str, Any]], dict[str, float]]:
     """The same number of drops, of flakes, and of drops in turbulent air; fog and nothing else."""
     still, rough = Wind((1.0, 0.0), 8.0), Wind((1.0, 0.0), 8.0, turbulence=0.25)
-    models = {
-        "rain": rain(stage, drops),
-        "snow": snow(stage, drops),
-        "wind": rain(stage, drops, [still]),
-        "turbulence": rain(stage, drops, [rough]),
-        "nothing": OurRain(stage, 0.0, quality=own(drops)),
-        "fog": OurRain(stage, 0.0, quality=own(drops), others=[Fog(200.0, draw=True)]),
-    }
-    timings, rows = in_turns(stage, models, rounds)
-    per_particle = models["rain"].drops / max(models["snow"].drops, 1)
+    nothing, fog = (
+        partial(OurRain, stage, 0.0, quality=own(drops), others=others)
+        for others in ((), (Fog(200.0, draw=True),))
+    )
+    pairs = (
+        {"rain": partial(rain, stage, drops), "snow": partial(snow, stage, drops)},
+        {
+            "rain_feedback": partial(rain, stage, drops, backend="feedback"),
+            "snow_feedback": partial(snow, stage, drops, backend="feedback"),
+        },
+        {
+            "wind": partial(rain, stage, drops, [still]),
+            "turbulence": partial(rain, stage, drops, [rough]),
+        },
+        {"nothing": nothing, "fog": fog},
+    )
+    rows: list[dict[str, Any]] = []
+    ratio, added = [], []
+    for pair in pairs:
+        models = {name: make() for name, make in pair.items()}
+        plain, other = models
+        timings, found = in_turns(stage, models, OFTEN * rounds)
+        rows += found
+        per_particle = models[plain].drops / max(models[other].drops, 1)
+        ratio.append(timings.ratio(other, plain) * per_particle)
+        added.append(timings.added_ms(other, plain))
     return rows, {
-        "snow_over_rain": timings.ratio("snow", "rain") * per_particle,
-        "turbulence_share": timings.ratio("turbulence", "wind") - 1.0,
-        "fog_ms": timings.ms("fog") - timings.ms("nothing"),
+        "snow_over_rain": ratio[0],
+        "snow_over_rain_feedback": ratio[1],
+        "turbulence_share": ratio[2] - 1.0,
+        "fog_ms": added[3],
     }
 
 

@@ -73,6 +73,7 @@ def test_one_disturbed_round_changes_nothing(clock: Clock) -> None:
     timings = measure(cases, rounds=9, warm_up=2, sample_seconds=0.0)
     assert timings.ms("a") == pytest.approx(20.0)
     assert timings.ratio("a", "b") == pytest.approx(2.0)
+    assert timings.added_ms("a", "b") == pytest.approx(10.0)
 
 
 def test_short_frames_share_a_sample(clock: Clock) -> None:

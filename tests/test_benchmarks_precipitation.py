@@ -31,8 +31,12 @@ def test_precipitation_has_the_papers_table_beside_ours(tmp_path: Path) -> None:
         assert 0.0 < at_60 <= at_56
         assert len([name for name in rows if name.startswith(f"{kind}_")]) >= 3
     assert ratios["times_the_papers"] == pytest.approx(ratios["drops_at_56fps"] / 1000.0)
-    assert {"snow_over_rain", "turbulence_share", "fog_ms"} <= set(ratios)
-    assert rows["nothing"]["drops"] == 0 and rows["snow"]["drops"] == rows["rain"]["drops"] == 5000
+    compared = {"snow_over_rain", "snow_over_rain_feedback", "turbulence_share", "fog_ms"}
+    assert compared <= set(ratios)
+    assert rows["nothing"]["drops"] == 0
+    for plain, other in (("rain", "snow"), ("rain_feedback", "snow_feedback")):
+        assert rows[other]["drops"] == rows[plain]["drops"] == 5000
+        assert rows[other]["rounds"] == rows[plain]["rounds"] > rows["light"]["rounds"]
 
 
 def test_the_number_held_lies_between_two_of_the_ladder() -> None:
