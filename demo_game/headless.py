@@ -6,7 +6,7 @@ import statistics
 import sys
 import time as clock
 from collections.abc import Generator
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -82,7 +82,7 @@ def run_tour(options: HeadlessOptions, settings: Settings) -> str:
             options.out.mkdir(parents=True, exist_ok=True)
         stats = None
         if options.stats is not None:
-            stats = stack.enter_context(StatsWriter(options.stats))
+            stats = stack.enter_context(closing(StatsWriter(options.stats)))
         film = None
         if options.video is not None:
             film = _film(options.video, options.size, options.dt)

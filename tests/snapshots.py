@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import copy
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
 
 import esper
 
@@ -17,6 +21,34 @@ from weather_ecs.components import (
     Sun,
     Wind,
 )
+
+ROOT = Path(__file__).resolve().parent.parent
+PROGRAM = """
+import sys, esper
+from weather_ecs import Weather
+weather = Weather(seed=5)
+weather.restore(bytes.fromhex(sys.stdin.read()))
+for t in sys.argv[1].split(","):
+    esper.process(float(t))
+    weather.sample((1.0, 2.0, 3.0))
+assert not {"moderngl", "pyglet"} & set(sys.modules), "a server needs no OpenGL"
+print(weather.snapshot().hex())
+"""
+
+
+def in_another_process(start: bytes, times: Sequence[float]) -> bytes:
+    """The snapshot to which a process of its own, without OpenGL, comes from one."""
+    result = subprocess.run(
+        [sys.executable, "-c", PROGRAM, ",".join(map(repr, times))],
+        input=start.hex(),
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        timeout=60,
+        check=False,
+    )
+    assert result.returncode == 0, result.stderr
+    return bytes.fromhex(result.stdout)
 
 
 def build() -> None:

@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.file_values import changed
+from tests.toml_files import load, refused
 from weather_ecs import (
     CloudFile,
     WeatherFileError,
@@ -75,19 +76,6 @@ def plain(value: object) -> object:
     if isinstance(value, Component):
         return {f.name: plain(getattr(value, f.name)) for f in fields(value)}
     return [plain(item) for item in value] if isinstance(value, tuple) else value
-
-
-def load(folder: Path, text: str | bytes) -> CloudFile:
-    path = folder / "clouds.toml"
-    path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return load_clouds(path)
-
-
-def refused(folder: Path, text: str | bytes) -> WeatherFileError:
-    with pytest.raises(WeatherFileError) as caught:
-        load(folder, text)
-    assert str(folder / "clouds.toml") in str(caught.value)
-    return caught.value
 
 
 def test_a_file_is_what_it_says(tmp_path):

@@ -6,8 +6,6 @@ import copy
 import gc
 import math
 import random
-import subprocess
-import sys
 import tracemalloc
 from pathlib import Path
 from typing import Any
@@ -19,6 +17,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.cloud_worlds import drawn, four_skies, layer, model, places, record, seconds, sky
+from tests.snapshots import in_another_process
 from tests.worlds import fresh_world
 from weather_ecs import Weather, snapshot
 from weather_ecs.components import Climate, Cloud, RainArea, Sky, SkyLayer, Wind
@@ -73,35 +72,12 @@ def test_halfway_through_a_change_it_goes_on_alike():
             assert mine["growth"] == pytest.approx(rows_then["growth"])
 
 
-PROGRAM = """
-import sys, esper
-from weather_ecs import Weather
-weather = Weather(seed=5)
-weather.restore(bytes.fromhex(sys.stdin.read()))
-for t in sys.argv[1].split(","):
-    esper.process(float(t))
-    weather.sample((1.0, 2.0, 3.0))
-assert not {"moderngl", "pyglet"} & set(sys.modules), "a server needs no OpenGL"
-print(weather.snapshot().hex())
-"""
-
-
 def test_another_process_without_opengl_gets_the_same_bytes():
     weather, start = halfway()
     for dt in TIMES:
         esper.process(dt)
         drawn(weather)  # looking changes nothing
-    result = subprocess.run(
-        [sys.executable, "-c", PROGRAM, ",".join(map(repr, TIMES))],
-        input=start.hex(),
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        timeout=60,
-        check=False,
-    )
-    assert result.returncode == 0, result.stderr
-    assert result.stdout.strip() == weather.snapshot().hex()
+    assert in_another_process(start, TIMES) == weather.snapshot()
 
 
 def test_the_frames_do_not_show():

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import esper
@@ -12,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.snapshots import build, components
+from tests.snapshots import build, components, in_another_process
 from tests.worlds import fresh_world
 from weather_ecs import Weather
 from weather_ecs.components import (
@@ -64,20 +62,6 @@ def test_restored_into_an_empty_world_it_goes_on_alike():
     assert [weather.sample((x, 0, 0)).rain_rate for x in range(20)] == rates
 
 
-PROGRAM = """
-import sys, esper
-from weather_ecs import Weather
-times = [float(t) for t in sys.argv[1].split(",")]
-weather = Weather(seed=5)
-weather.restore(bytes.fromhex(sys.stdin.read()))
-for t in times:
-    esper.process(t)
-    weather.sample((1.0, 2.0, 3.0))
-assert not {"moderngl", "pyglet"} & set(sys.modules), "a server needs no OpenGL"
-print(weather.snapshot().hex())
-"""
-
-
 def test_another_process_without_opengl_gets_the_same_bytes():
     weather = Weather(seed=3)
     build()
@@ -86,17 +70,7 @@ def test_another_process_without_opengl_gets_the_same_bytes():
     for dt in TIMES:
         esper.process(dt)
         assert weather.stats.frame
-    result = subprocess.run(
-        [sys.executable, "-c", PROGRAM, ",".join(map(repr, TIMES))],
-        input=start.hex(),
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        timeout=60,
-        check=False,
-    )
-    assert result.returncode == 0, result.stderr
-    assert bytes.fromhex(result.stdout) == weather.snapshot()
+    assert in_another_process(start, TIMES) == weather.snapshot()
 
 
 def test_living_entities_keep_their_components_and_others_come_and_go():

@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from tests.file_values import changed, contents
+from tests.toml_files import load, refused
 from tests.worlds import fresh_world
 from weather_ecs import CloudFile, Weather, WeatherFileError, load_clouds, presets, save_clouds
 from weather_ecs.components import (
@@ -90,19 +91,6 @@ level = "village"
 [extra.music]
 loud = 0.5
 """
-
-
-def load(folder: Path, text: str | bytes) -> CloudFile:
-    path = folder / "weather.toml"
-    path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return load_clouds(path)
-
-
-def refused(folder: Path, text: str | bytes) -> WeatherFileError:
-    with pytest.raises(WeatherFileError) as caught:
-        load(folder, text)
-    assert str(folder / "weather.toml") in str(caught.value)
-    return caught.value
 
 
 def test_a_file_of_a_whole_weather(tmp_path):

@@ -76,10 +76,8 @@ def image_array(ctx: moderngl.Context) -> moderngl.TextureArray:
     Filtered trilinearly, but on a rasteriser in software, where that costs half as much again.
     """
     texture = mip_array(ctx, SIZE, 4, _levels())
-    slow = any(name in ctx.info["GL_RENDERER"] for name in SOFTWARE)
-    nearer = moderngl.LINEAR_MIPMAP_NEAREST if slow else moderngl.LINEAR_MIPMAP_LINEAR
-    texture.filter = (nearer, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
+    if not any(name in ctx.info["GL_RENDERER"] for name in SOFTWARE):
+        texture.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
     return texture
 
 

@@ -53,10 +53,7 @@ def _built() -> list[bytes]:
 
 def splash_texture(ctx: moderngl.Context) -> moderngl.TextureArray:
     """The frames on the GPU, with smaller levels for distance."""
-    texture = mip_array(ctx, SIZE, 2, _built())
-    texture.filter = moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR
-    texture.repeat_x = texture.repeat_y = False
-    return texture
+    return mip_array(ctx, SIZE, 2, _built())
 
 
 Cloud = tuple[NDArray, NDArray, NDArray, NDArray]  # x, y, mass, light
