@@ -14,11 +14,12 @@ from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.heightmap import Footprint
 from weather_ecs.gpu.impact_list import IMPACT_DTYPE
 from weather_ecs.gpu.rain_blocks import RAIN_VIEW, SHELTER
-from weather_ecs.gpu.rain_pass import SHELTER_UNIT
+from weather_ecs.gpu.rain_pass import MOTION_UNIT, SHELTER_UNIT
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.splash_pass import SPLASH, fill_splash
 from weather_ecs.gpu.splash_texture import BEAD
 from weather_ecs.gpu.view_block import fill_view
+from weather_ecs.physics.ride import motion_bytes
 from weather_ecs.physics.splash import SplashLaw, acceleration
 
 LOOKS = ProgramKey(
@@ -92,7 +93,10 @@ class SplashCapture:
         self._shaders = ShaderLoader(ctx)
         self._looks = self._shaders.program(LOOKS)
         self._quads = self._shaders.program(QUADS)
-        self._quads["shelter_map"] = SHELTER_UNIT
+        self._quads["shelter_map"], self._quads["shelter_motion"] = SHELTER_UNIT, MOTION_UNIT
+        self._motion = ctx.texture((TEXELS, TEXELS), 4)
+        self._motion.filter = moderngl.NEAREST, moderngl.NEAREST
+        self.move((0.0, 0.0, 0.0))
         self._blocks = [BlockBuffer(ctx, block) for block in (RAIN_VIEW, SPLASH, SHELTER, AIR_FLOW)]
         self._map = ctx.depth_texture((TEXELS, TEXELS))
         self._map.compare_func = ""
@@ -113,6 +117,12 @@ class SplashCapture:
         place = Footprint((0.0, 0.0), HALF, (0.0, 0.0), BOTTOM, TOP)
         shelter["shelter_matrix"] = place.matrix()
         shelter.data["shelter_size"] = (TEXELS, TOP - BOTTOM, 2.0 * HALF / TEXELS, 0.0)
+
+    def move(self, velocity: tuple[float, float, float]) -> None:
+        """All that there is moves so fast, m/s."""
+        motion = np.full((TEXELS, TEXELS, 4), 255, np.uint8)
+        motion[..., :3] = motion_bytes(np.array(velocity))
+        self._motion.write(motion)
 
     def looks(self, records: NDArray, view: ViewData, look: SplashLook) -> Looks:
         found = self._run(self._looks, records, view, look, 17, len(records))
@@ -137,6 +147,7 @@ class SplashCapture:
             block.upload()
             block.bind()
         self._map.use(SHELTER_UNIT)
+        self._motion.use(MOTION_UNIT)
         source = self._ctx.buffer(records)
         out = self._ctx.buffer(np.zeros((rows, width), np.float32))
         array = self._ctx.vertex_array(
@@ -150,6 +161,6 @@ class SplashCapture:
         return found
 
     def release(self) -> None:
-        things = (self._target, self._color, self._map, *self._blocks, self._shaders)
+        things = (self._target, self._color, self._motion, self._map, *self._blocks, self._shaders)
         for thing in things:
             thing.release()

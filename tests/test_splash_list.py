@@ -15,6 +15,7 @@ from tests.views import look_from, perspective
 from tests.weather_pictures import stage
 from weather_ecs.frame import DropLook, FrameData, SplashLook, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.impact_list import ImpactList
 from weather_ecs.gpu.rain_blocks import RAIN_VIEW
 from weather_ecs.gpu.shader_loader import ShaderLoader
@@ -108,6 +109,8 @@ def test_nothing_is_listed_where_nothing_has_been_hit(ctx: moderngl.Context) -> 
 def test_there_is_room_for_one_in_four_drops(
     ctx: moderngl.Context, quality: str, room: int
 ) -> None:
+    if not probe(ctx).compute:
+        pytest.skip("no compute shaders here")
     with stage(ctx, quality=quality, backend="compute") as it:
         scene()
         it.play(2)

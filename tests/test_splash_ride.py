@@ -17,7 +17,7 @@ from tests.boxes import CORNERS, TRIANGLES, box, placed
 from tests.heightmap_stage import REACH, Maps
 from tests.splash_capture import SplashCapture, impacts
 from tests.test_splash import LOOK, view_at
-from tests.test_splash_companions import AGE, FEW, crowns
+from tests.test_splash_companions import AGE, FEW, MANY, crowns
 from tests.weather_pictures import stage
 from weather_ecs.components import Occluder, RainArea, SplashEmitter, Wind
 from weather_ecs.frame import OccluderData
@@ -198,5 +198,31 @@ def test_what_rides_is_brought_onto_the_surface_and_what_stands_is_not(ctx: mode
                 level["position"] = (0.0, 0.0, 0.0)
                 same = crowns(made.quads(level, view_at(), LOOK))
                 assert np.abs(found - same).max() < 1e-3
+    finally:
+        made.release()
+
+
+def test_the_smaller_ones_ride_on_what_is_at_their_place(ctx: moderngl.Context):
+    made = SplashCapture(ctx)
+    try:
+        view, speed = view_at((0.0, 2.5, 3.0), -0.7), (2.0, 0.0, 0.0)
+        numbers = ride.motion_bytes(np.array([speed]))
+        velocity, records = ride.motion_velocity(numbers)[0], impacts(12, weight=MANY)
+        records["time"] = 100.0 - AGE
+
+        def places() -> np.ndarray:
+            found = crowns(made.quads(records, view, LOOK))
+            return 0.5 * (found.min(axis=1) + found.max(axis=1))[:, :2]
+
+        still = places()
+        made.move(speed)
+        moved = places()
+        assert len(still) == len(moved) > 40
+        # To the right in the picture, by no more than they can have gone since they were there.
+        way = moved[:, 0] - still[:, 0]
+        limit = velocity[0] * AGE / 2.4 * view.projection[0, 0]
+        assert (way > 1e-3).sum() > 30 and way.min() > -0.02 and way.max() < limit
+        own = np.abs(way) < 1e-6  # the twelve that nothing is known to carry
+        assert 12 <= own.sum() < 24
     finally:
         made.release()

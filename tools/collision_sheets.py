@@ -1,15 +1,20 @@
 """Sheets of rain that meets the demo: `python -m tools.collision_sheets OUT.jpg NAME`.
 
-NAME: hits (what rain falls on), frames (successive frames of somebody who walks), puddles (a minute
-and more of rain, and what dries after it), lee (the ground round the cabin, calm and in wind).
+NAME: hits (what rain falls on), frames (successive frames of somebody who walks and of a sail that
+turns), puddles (a minute and more of rain, and what dries after it), lee (the ground round the
+cabin, calm and in wind).
 The sheets in docs/collisions.md are made by it.
 """
 
 from __future__ import annotations
 
+import math
 import sys
 from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from demo_game.game import Game
 from demo_game.place import layout
@@ -66,7 +71,8 @@ def hits(stage: Stage, out: Path) -> None:
 
 
 def frames(stage: Stage, out: Path) -> None:
-    """Successive frames of somebody who walks, from one in which a shoulder is hit."""
+    """Successive frames of somebody who walks, from a hit on a shoulder on, and of a sail."""
+    sail = sail_frames(stage)
     stage.quality = "medium"
     game = stage.game(preset=RAIN)
     set_weather(game, 0.0, 50.0)
@@ -78,7 +84,39 @@ def frames(stage: Stage, out: Path) -> None:
         pictures.append(stage.still(game, frames=1)[60:420, 220:800])
     game.close()
     texts = [f"{1000 * k * FRAME:.0f} ms" for k in range(6)]
-    save_sheet(out, pictures[HIT:], texts, columns=3, width=480)
+    texts += [f"a sail that turns, {text}" for text in texts[:3]]
+    save_sheet(out, pictures[HIT:] + sail, texts, columns=3, width=480)
+
+
+def sail_frames(stage: Stage) -> list[NDArray[np.uint8]]:
+    """Three frames from close to a sail of the windmill, in rain that drives against it."""
+    game = stage.game(preset=RAIN)
+    mood, poses = game.mood.current, game.place.poses
+    hub = poses(0.0)["sails"]
+    x, _, z = facing = hub[:3, 2]
+    wind = {"wind_speed": 7.0, "wind_heading": math.atan2(z, -x)}
+    game.mood.put(replace(mood, rain_rate=60.0, **wind), RAIN)
+    stage.still(game, seconds=20.0, frames=0)
+
+    def middle() -> NDArray[np.float64]:
+        """Of the sail that has just come down to the level, m."""
+        spots = [(0.5, 5.0), (-5.0, 0.5), (-0.5, -5.0), (5.0, -0.5)]  # of the four
+        places = np.array([poses(game.scene_time)["sails"] @ (*spot, 0.0, 1.0) for spot in spots])
+        sinks = places @ hub[:, 0] > hub[:, 3] @ hub[:, 0]  # they turn clockwise
+        away = np.where(sinks, np.abs(places[:, 1] - hub[1, 3] - 0.5), np.inf)
+        return np.asarray(places[np.argmin(away), :3])
+
+    while abs(middle()[1] - hub[1, 3] - 0.5) > 0.15:
+        stage.still(game, frames=1)
+    pictures = []
+    for frame in range(14):
+        if frame <= 10:
+            at = middle()
+            eye = at + 2.0 * facing + (0.0, 0.5, 0.0) - 1.5 * hub[:3, 0]
+            stage.face(eye.tolist(), at.tolist())
+        pictures.append(stage.still(game, frames=1)[150:510, 120:700])
+    game.close()
+    return pictures[10:13]
 
 
 def puddles(stage: Stage, out: Path) -> None:

@@ -48,9 +48,7 @@ bool read_impact(out Impact i)
 #include "drop_law.glsl"
 #include "drop_weight.glsl"
 #include "landed.glsl"
-#include "shelter.glsl"
-
-uniform sampler2D shelter_motion;
+#include "shelter_motion.glsl"
 
 in vec3 in_position;
 in vec3 in_velocity;
@@ -68,11 +66,10 @@ bool read_impact(out Impact i)
     float d;
     i.weight = drop_weight(i.position, in_birth.z, gl_VertexID, d);
     i.weight *= drop_arrived(i.position.y, i.speed, i.age);
-    vec2 at = shelter_place(i.position).xy;
-    i.normal = surface_normal(at);
+    vec3 at = shelter_place(i.position);
+    i.normal = surface_normal(at.xy);
     // Of what is there by now, most often the same; and it was hit in the course of a step.
-    vec3 bytes = texelFetch(shelter_motion, ivec2(at * shelter_size.x), 0).rgb * 255.0;
-    i.ride = motion_velocity(floor(bytes + 0.5));
+    i.ride = met_velocity(at);
     i.position -= i.ride * min(i.age, view_time.y);
     return i.weight > 0.0;
 }

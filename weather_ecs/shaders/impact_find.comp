@@ -3,9 +3,7 @@ layout(local_size_x = 64) in;  // FIND_GROUP
 #define SHELTER
 #include "drop_step.glsl"
 #include "impact_list.glsl"
-#include "motion.glsl"
-
-uniform sampler2D shelter_motion;
+#include "shelter_motion.glsl"
 
 layout(std430, binding = 0) readonly buffer Births { vec4 births[]; };
 layout(std430, binding = 1) buffer Drops { float drops[]; };
@@ -34,8 +32,7 @@ void main()
     float weight = drop_weight(hit, birth.z, int(id), d) * drop_arrived(hit.y, speed, age);
     if (weight <= 0.0) return;
     // What was hit is there now; where it was when it was hit, so that the splash rides on with it.
-    ivec2 at_map = ivec2(shelter_place(hit).xy * shelter_size.x);
-    vec3 bytes = floor(texelFetch(shelter_motion, at_map, 0).rgb * 255.0 + 0.5);
+    vec3 bytes = met_motion(shelter_place(hit));
     hit -= motion_velocity(bytes) * age;
     append_impact(hit, rain_time - age, normal, diameter, speed, weight, birth.w,
                   packed_motion(bytes));

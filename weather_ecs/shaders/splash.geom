@@ -11,7 +11,7 @@ layout(triangle_strip, max_vertices = 71) out;
 #endif
 #include "splash.glsl"
 #include "splash_quad.glsl"
-#include "shelter.glsl"
+#include "shelter_motion.glsl"
 #include "turbulence.glsl"
 
 in vec3 vs_throw[];
@@ -136,32 +136,56 @@ void droplets(float seed, vec3 n, vec4 color)
     }
 }
 
-// The smaller ones around, each on what rain meets first at its place.
+// What rain meets first at a place.
+struct Met {
+    vec3 m;       // the place in the map
+    vec2 part;    // of it between four texels
+    vec4 corners; // depths of these
+    float rise;   // m from the place up to the surface
+};
+
+bool meet(vec3 at, out Met met)
+{
+    met.m = shelter_place(at);
+    if (!in_shelter_map(met.m)) return false;
+    met.corners = shelter_corners(met.m.xy, met.part);
+    met.rise = below_corners(met.m, met.corners, met.part);
+    return true;
+}
+
+vec3 onto(Met met, vec3 at)
+{
+    return at + met.rise * vec3(-shelter_fall.x, 1.0, -shelter_fall.y);
+}
+
+// The smaller ones around, each on what rain meets first at its place, and on with that.
 void around(vec4 form, vec4 color)
 {
     for (int k = 0; k < COMPANIONS; ++k) {
         if (float(k) >= vs_more[0]) break;
         uint id;
         vec4 off = companion(form.w, k, id);
-        float x = (vs_throw[0].y - off.z) / splash_look.z;
+        float age = vs_throw[0].y - off.z;
+        float x = age / splash_look.z;
         if (x < 0.0 || x > CROWN_LIFE) continue;
         vec3 at = hit + vec3(off.x, 0.0, off.y);
-        vec3 m = shelter_place(at);
-        if (!in_shelter_map(m)) continue;
-        vec2 part;
-        vec4 c = shelter_corners(m.xy, part);
-        float rise = below_corners(m, c, part);
-        // Beside the thing that its splash rides on, it stays where it was.
-        if (abs(rise) > WITHIN && vs_ridden[0] != vec3(0.0)) {
-            at -= vs_ridden[0];
-            m = shelter_place(at);
-            if (!in_shelter_map(m)) continue;
-            c = shelter_corners(m.xy, part);
-            rise = below_corners(m, c, part);
+        Met met;
+        if (!meet(at, met)) continue;
+        if (vs_ridden[0] != vec3(0.0)) {
+            // Beside the thing that its splash rides on, it stays where it was.
+            if (abs(met.rise) > WITHIN && !meet(at -= vs_ridden[0], met)) continue;
+        } else {
+            vec3 v = met_velocity(met.m);
+            vec3 on = onto(met, at) + v * age;
+            Met there;
+            if (v != vec3(0.0) && meet(on, there) && abs(there.rise) < SNAP) {
+                met = there;
+                at = on;
+            }
         }
-        if (beside_wall(m.z - rise / shelter_size.y, c)) continue;
-        at += rise * vec3(-shelter_fall.x, 1.0, -shelter_fall.y);
-        vec3 n = corners_normal(c, part);
+        if (beside_wall(met.m.z - met.rise / shelter_size.y, met.corners)) continue;
+        at = onto(met, at);
+        vec3 n = corners_normal(met.corners, met.part);
         float above = dot(normalize(camera_position.xyz - at), n);
         lift = clamp(40.0 * above, 0.0, 1.0);
         vec4 own = vec4(off.w * near_size(length(at - camera_position.xyz)), x, 0.0, hash_unit(id));
@@ -176,16 +200,12 @@ void main()
     if (form.x <= 0.0) return;
     vec3 n = vs_normal[0];
     hit = vs_at[0];
-    vec3 m = shelter_place(hit);
     float left = 1.0;
-    if (in_shelter_map(m)) {
-        vec2 part;
-        vec4 c = shelter_corners(m.xy, part);
-        if (beside_wall(m.z, c)) return;
-        float rise = below_corners(m, c, part);
-        if (vs_ridden[0] != vec3(0.0) && abs(rise) < SNAP)
-            hit += rise * vec3(-shelter_fall.x, 1.0, -shelter_fall.y);
-        else left -= smoothstep(GONE, 2.0 * GONE, -rise);
+    Met met;
+    if (meet(hit, met)) {
+        if (beside_wall(met.m.z, met.corners)) return;
+        if (vs_ridden[0] != vec3(0.0) && abs(met.rise) < SNAP) hit = onto(met, hit);
+        else left -= smoothstep(GONE, 2.0 * GONE, -met.rise);
     }
     float above = dot(normalize(camera_position.xyz - hit), n);
     if (n.y < STEEP && above < 0.0) return;
