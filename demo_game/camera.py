@@ -66,8 +66,3 @@ def projection_matrix(
     projection[2, 3] = 2.0 * far * near / (near - far)
     projection[3, 2] = -1.0
     return projection
-
-
-def column_major(matrix: NDArray[np.float64]) -> tuple[float, ...]:
-    """The 16 floats of a matrix in OpenGL's and pyglet's order."""
-    return tuple(matrix.T.ravel().tolist())

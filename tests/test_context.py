@@ -37,12 +37,7 @@ def run(script: str, **environment: str) -> str:
 def test_probe(ctx: moderngl.Context) -> None:
     found = probe(ctx)
     assert found.version == ctx.version_code
-    assert found.renderer == ctx.info["GL_RENDERER"]
     assert found.compute == (ctx.version_code >= 430)
-    assert found.uniform_bindings == ctx.info["GL_MAX_UNIFORM_BUFFER_BINDINGS"]
-    assert found.texture_units == ctx.max_texture_units
-    assert found.geometry_shader
-    assert found.texture_size >= 1024
 
 
 def test_a_given_context_is_taken(ctx: moderngl.Context) -> None:

@@ -51,16 +51,6 @@ def test_height_is_the_drawn_ground(place: Place) -> None:
     assert np.allclose(place.height(x, z), y, atol=1e-3)
 
 
-def test_ground_normals(place: Place) -> None:
-    x, z = np.random.default_rng(1).uniform(-100.0, 80.0, (2, 300))
-    normals = place.ground_normal(x, z)
-    assert np.allclose(np.linalg.norm(normals, axis=-1), 1.0)
-    assert (normals[:, 1] > 0.6).all()
-    step = 1.0
-    slope = (place.height(x + step, z) - place.height(x - step, z)) / (2.0 * step)
-    assert np.allclose(-normals[:, 0] / normals[:, 1], slope, atol=1e-6)
-
-
 def test_another_seed_is_another_ground_and_the_same_seed_the_same() -> None:
     assert Place(3).height(31.0, -12.0) == Place(3).height(31.0, -12.0)
     assert Place(3).height(31.0, -12.0) != Place(4).height(31.0, -12.0)

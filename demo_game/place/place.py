@@ -95,10 +95,6 @@ class Place:
         """Height of the ground, m; scalars or arrays."""
         return self.terrain.height(x, z)  # type: ignore[arg-type, return-value]
 
-    def ground_normal(self, x: float | NDArray, z: float | NDArray) -> NDArray:
-        """(..., 3) unit normal of the ground."""
-        return self.terrain.normal(x, z)
-
     def floor_height(self, x: float, z: float, y: float) -> float:
         """Highest ground, floor or step at (x, z) that feet at height y can stand on, m."""
         best = self.terrain.height(float(x), float(z))

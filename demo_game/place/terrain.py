@@ -116,11 +116,3 @@ class Terrain:
             return near[i] + u * (near[i + 1] - near[i]) + v * (far[i] - near[i])
         d = far[i + 1]
         return d + (1.0 - u) * (far[i] - d) + (1.0 - v) * (near[i + 1] - d)
-
-    def normal(self, x: float | NDArray, z: float | NDArray, step: float = 1.0) -> NDArray:
-        """(..., 3) unit normal of the ground, its slope taken over two steps, m."""
-        x, z = np.asarray(x, "f8"), np.asarray(z, "f8")
-        dx = np.asarray(self.height(x + step, z)) - np.asarray(self.height(x - step, z))
-        dz = np.asarray(self.height(x, z + step)) - np.asarray(self.height(x, z - step))
-        normal = np.stack([-dx, np.full_like(dx, 2.0 * step), -dz], -1)
-        return normal / np.linalg.norm(normal, axis=-1, keepdims=True)

@@ -22,15 +22,7 @@ class Capabilities:
     """What the current OpenGL offers."""
 
     version: int  # 330 for OpenGL 3.3
-    renderer: str
-    vendor: str
     compute: bool  # compute shaders and storage buffers, OpenGL 4.3
-    geometry_shader: bool
-    timer_queries: bool  # time stamps with a resolution
-    uniform_bindings: int
-    storage_bindings: int
-    texture_units: int  # in one shader stage
-    texture_size: int  # texels
 
 
 def probe(ctx: moderngl.Context, gl: GL | None = None) -> Capabilities:
@@ -39,15 +31,7 @@ def probe(ctx: moderngl.Context, gl: GL | None = None) -> Capabilities:
     compute = min(gl.version, ctx.version_code) >= COMPUTE
     return Capabilities(
         version=gl.version,
-        renderer=gl.get_string(e.RENDERER),
-        vendor=gl.get_string(e.VENDOR),
         compute=compute and gl.get_int(e.MAX_COMPUTE_WORK_GROUP_INVOCATIONS) >= GROUP_SIZE,
-        geometry_shader=gl.get_int(e.MAX_GEOMETRY_OUTPUT_VERTICES) > 0,
-        timer_queries=gl.get_query(e.TIMESTAMP, e.QUERY_COUNTER_BITS) > 0,
-        uniform_bindings=gl.get_int(e.MAX_UNIFORM_BUFFER_BINDINGS),
-        storage_bindings=gl.get_int(e.MAX_SHADER_STORAGE_BUFFER_BINDINGS) if compute else 0,
-        texture_units=gl.get_int(e.MAX_TEXTURE_IMAGE_UNITS),
-        texture_size=gl.get_int(e.MAX_TEXTURE_SIZE),
     )
 
 

@@ -29,14 +29,9 @@ SINCE = {
     "glEnablei": 300,
     "glBlendFuncSeparatei": 400,
     "glBlendEquationSeparatei": 400,
-    "glDrawArraysIndirect": 400,
-    "glDrawElementsIndirect": 400,
     "glBindTransformFeedback": 400,
     "glMemoryBarrier": 420,
     "glDispatchCompute": 430,
-    "glDispatchComputeIndirect": 430,
-    "glShaderStorageBlockBinding": 430,
-    "glClearBufferData": 430,
     "glBindBuffersBase": 440,
     "glBindSamplers": 440,
     "glTextureBarrier": 450,
@@ -121,8 +116,6 @@ class GL:
     glGetBufferSubData: Callable[[U, Z, Z, P], None]
     glIsBuffer: Callable[[U], B]
     glBindTransformFeedback: Callable[[U, U], None] | None
-    glShaderStorageBlockBinding: Callable[[U, U, U], None] | None
-    glClearBufferData: Callable[[U, U, U, U, P], None] | None
     # textures
     glActiveTexture: Callable[[U], None]
     glGenTextures: Callable[[I, P], None]
@@ -155,10 +148,7 @@ class GL:
     glReadPixels: Callable[[I, I, I, I, U, U, P], None]
     # drawing, computing
     glDrawArrays: Callable[[U, I, I], None]
-    glDrawArraysIndirect: Callable[[U, P], None] | None
-    glDrawElementsIndirect: Callable[[U, U, P], None] | None
     glDispatchCompute: Callable[[U, U, U], None] | None
-    glDispatchComputeIndirect: Callable[[Z], None] | None
     glMemoryBarrier: Callable[[U], None] | None
     glFlush: Callable[[], None]
     glFinish: Callable[[], None]

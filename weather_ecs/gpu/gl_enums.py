@@ -6,17 +6,13 @@ from typing import Final
 
 # errors, strings, limits
 NO_ERROR: Final = 0
-VENDOR: Final = 0x1F00
-RENDERER: Final = 0x1F01
 VERSION: Final = 0x1F02
 MAJOR_VERSION: Final = 0x821B
 MINOR_VERSION: Final = 0x821C
-MAX_TEXTURE_SIZE: Final = 0x0D33
 MAX_TEXTURE_IMAGE_UNITS: Final = 0x8872
 MAX_DRAW_BUFFERS: Final = 0x8824
 MAX_UNIFORM_BUFFER_BINDINGS: Final = 0x8A2F
 MAX_SHADER_STORAGE_BUFFER_BINDINGS: Final = 0x90DD
-MAX_GEOMETRY_OUTPUT_VERTICES: Final = 0x8DE0
 MAX_COMPUTE_WORK_GROUP_INVOCATIONS: Final = 0x90EB
 
 # capabilities of glEnable
@@ -94,7 +90,6 @@ PACK_ALIGNMENT: Final = 0x0D05
 # values
 ZERO: Final = 0
 ONE: Final = 1
-LESS: Final = 0x0201
 LEQUAL: Final = 0x0203
 SRC_ALPHA: Final = 0x0302
 ONE_MINUS_SRC_ALPHA: Final = 0x0303
@@ -102,7 +97,6 @@ FUNC_ADD: Final = 0x8006
 BACK: Final = 0x0405
 FRONT_AND_BACK: Final = 0x0408
 CCW: Final = 0x0901
-LINE: Final = 0x1B01
 FILL: Final = 0x1B02
 NEAREST: Final = 0x2600
 NONE: Final = 0
