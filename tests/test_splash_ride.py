@@ -188,7 +188,7 @@ def test_what_rides_is_brought_onto_the_surface_and_what_stands_is_not(ctx: mode
     try:
         speed = ride.packed(ride.motion_bytes(np.array([[3.0, 0.0, 0.0]])))
         gone = ride.motion_velocity(ride.motion_bytes(np.array([3.0, 0.0, 0.0])))[0] * AGE
-        for lift, number, shown in ((0.25, speed, 1), (0.5, speed, 0), (0.25, 0.0, 0)):
+        for lift, number, shown in ((0.13, speed, 1), (0.5, speed, 1), (0.25, 0.0, 0)):
             records = impacts(1, time=100.0 - AGE, weight=FEW, ride=number)
             records["position"] = (-gone if number else 0.0, lift, 0.0)
             found = crowns(made.quads(records, view_at(), LOOK))
@@ -197,7 +197,8 @@ def test_what_rides_is_brought_onto_the_surface_and_what_stands_is_not(ctx: mode
                 level = impacts(1, time=100.0 - AGE, weight=FEW)
                 level["position"] = (0.0, 0.0, 0.0)
                 same = crowns(made.quads(level, view_at(), LOOK))
-                assert np.abs(found - same).max() < 1e-3
+                # What the map has not seen rides on; it is brought onto what is near.
+                assert (np.abs(found - same).max() < 1e-3) == (lift < 0.2)
     finally:
         made.release()
 

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 FASTEST = 16.0  # m/s along an axis; whoever is faster has been put there
-SNAP = 0.3  # m along the fall by which a splash is moved onto the surface that it rides on
 
 
 def motion_bytes(velocity: NDArray) -> NDArray[np.float64]:

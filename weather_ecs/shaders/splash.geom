@@ -25,7 +25,10 @@ const float WITHIN = 0.3;  // m, of a droplet below what rain meets first at its
 const float GONE = 0.12;  // m, that a surface may have sunk under a splash; at twice that it is gone
 // m: beside what is so much higher it cannot be told whether a hit is before a wall or within it.
 const float BESIDE = 0.9;
-const float SNAP = 0.3;  // m along the fall by which what rides on a thing is brought onto it
+// What rides on a thing is brought onto it along the fall, by so many m and so much of its way: by
+// more, and the map only has not seen something slim.
+const float SNAP = 0.05;
+const float SNAP_SHARE = 0.2;
 const float STEEP = 0.5;  // rise of the normal below which what is hit is a wall
 
 // Whether one of the texels around a place at a depth of the map is of something far above it: there
@@ -153,6 +156,11 @@ bool meet(vec3 at, out Met met)
     return true;
 }
 
+float slack(vec3 ridden)
+{
+    return SNAP + SNAP_SHARE * length(ridden);
+}
+
 vec3 onto(Met met, vec3 at)
 {
     return at + met.rise * vec3(-shelter_fall.x, 1.0, -shelter_fall.y);
@@ -178,7 +186,8 @@ void around(vec4 form, vec4 color)
             vec3 v = met_velocity(met.m);
             vec3 on = onto(met, at) + v * age;
             Met there;
-            if (v != vec3(0.0) && meet(on, there) && abs(there.rise) < SNAP) {
+            if (v != vec3(0.0) && meet(on, there) && abs(there.rise) < WITHIN) {
+                if (abs(there.rise) > slack(v * age)) there.rise = 0.0;
                 met = there;
                 at = on;
             }
@@ -204,8 +213,8 @@ void main()
     Met met;
     if (meet(hit, met)) {
         if (beside_wall(met.m.z, met.corners)) return;
-        if (vs_ridden[0] != vec3(0.0) && abs(met.rise) < SNAP) hit = onto(met, hit);
-        else left -= smoothstep(GONE, 2.0 * GONE, -met.rise);
+        if (vs_ridden[0] == vec3(0.0)) left -= smoothstep(GONE, 2.0 * GONE, -met.rise);
+        else if (abs(met.rise) < slack(vs_ridden[0])) hit = onto(met, hit);
     }
     float above = dot(normalize(camera_position.xyz - hit), n);
     if (n.y < STEEP && above < 0.0) return;
