@@ -6,7 +6,7 @@ noperspective in vec4 gs_all;
 out vec4 color;
 #ifndef FAR
 uniform sampler2DArray flake_pictures;
-flat in vec4 gs_frame;
+flat in vec3 gs_frame;
 #endif
 
 void main()
@@ -18,7 +18,7 @@ void main()
     color = vec4(own.rgb, own.a * cover);
 #else
     vec2 seen = textureLod(flake_pictures, vec3(gs_all.xy * 0.5 + 0.5, gs_frame.x), gs_frame.y).rg;
-    cover *= min(seen.r * gs_frame.z, 1.0);
-    color = vec4(own.rgb * mix(seen.g, 1.0, gs_frame.w), own.a * cover);
+    cover *= min(seen.r * (1.0 + 3.0 * gs_frame.z), 1.0);
+    color = vec4(own.rgb * mix(seen.g, 1.0, gs_frame.z), own.a * cover);
 #endif
 }

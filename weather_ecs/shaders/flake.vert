@@ -5,17 +5,19 @@
 #include "landed.glsl"
 #include "flake_light.glsl"
 #include "encode.glsl"
+#include "flake_shape.glsl"
 #include "fog.glsl"
+#include "packed_color.glsl"
 #include <block:RainView>
 
 in vec3 in_position;
 in vec3 in_velocity;
 in vec4 in_birth;
 
-out vec4 vs_head;   // clip space
-out vec4 vs_path;   // pixels: way during the exposure, radius; layer. Radius 0: nothing to draw
-out vec4 vs_color;  // encoded, with opacity
-out vec4 vs_turn;   // cosine and sine of the turn in the picture's plane, tilt, level
+// The geometry shader is handed little: what it is handed costs as much as what it does.
+out vec4 vs_place;  // normalised device coordinates; radius in pixels. Radius 0: nothing to draw
+out vec4 vs_axes;   // the picture's two in them, half as long as its sides
+out vec4 vs_shown;  // colour, encoded and packed; layer and level of the picture
 
 const float SMALLEST = 1.7;  // pixels, diameter below which a flake gets fainter instead
 const float PICTURE = 64.0;  // texels on a side
@@ -56,7 +58,7 @@ vec2 turned(float turns)
 
 void main()
 {
-    vs_head = vs_path = vs_color = vs_turn = vec4(0.0);
+    vs_place = vs_axes = vs_shown = vec4(0.0);
     gl_Position = vec4(0.0);
     if (has_landed(in_velocity)) return;
     vec3 p = in_position;
@@ -106,25 +108,34 @@ void main()
     float swing = (30.0 + float((word >> 8u) & 63u)) * snow_motion.y * 0.5;
     float tilt = mix(0.62 + 0.38 * turned(swing).x, 1.0, flake_clumped(diameter) * 0.7);
     tilt = max(tilt, 0.3);
-    vs_head = head;
     ivec2 layer = flake_layer(word, diameter, habit, drop_law.z);
-    vs_path = vec4(way, 0.5 * shown, layer.x);
+    float radius = 0.5 * shown;
     float turn = float(word >> 26u) * 0.015625 + view_time.x * (float((word >> 3u) & 31u) - 15.5) * 0.0095;
-    vs_turn = vec4(normalize(turned(turn)), tilt, 0.0);
+    vec2 turning = normalize(turned(turn));
 #ifdef FAR
     // The smallest have no shape: discs of what one sees of them.
-    float flat_by = mix(1.0, tilt, clamp(0.5 * shown - 1.0, 0.0, 1.0));
+    float flat_by = mix(1.0, tilt, clamp(radius - 1.0, 0.0, 1.0));
     float wide = max(shown * sqrt(tilt / flat_by), SMALLEST);
-    vs_path.z = 0.5 * wide;
-    vs_turn.z = flat_by;
+    radius = 0.5 * wide;
     opacity *= WHITE[layer.y] * tilt * shown * shown / (flat_by * wide * wide);
+    tilt = flat_by;
 #else
-    vs_turn.w = log2(PICTURE / shown) + log2(1.0 + (soft + 0.7 * smear) / max(pixels, 1.0));
+    vs_shown.zw = vec2(layer.x, log2(PICTURE / shown * (1.0 + (soft + 0.7 * smear) / max(pixels, 1.0))));
 #endif
+    // Drawn out along its way, about the middle of it.
+    vec2 e = smear > 0.5 ? way / smear : vec2(1.0, 0.0);
+    mat2 drawn = mat2(e * (radius + 0.5 * smear), vec2(-e.y, e.x) * radius);
+    vec2 along = drawn * turning;
+    vec2 across = drawn * vec2(-turning.y, turning.x) * tilt;
+    vec2 pixel = 1.0 / view_size.xy;
+    vs_place = vec4(head.xyz / head.w, radius);
+    vs_place.xy -= way * pixel;
+    vs_axes = vec4(along * pixel, across * pixel) * 2.0;
 
     vec3 ray = p - camera_position.xyz;
     float away = length(ray);
     // No two flakes lie alike to the light.
     vec3 light = flake_light(p, ray / away) * (0.85 + 0.3 * float((word >> 7u) & 63u) / 63.0);
-    vs_color = vec4(encode(in_fog(light, away)), opacity);
+    opacity *= flake_denser(radius);
+    vs_shown.xy = pack_color(vec4(encode(in_fog(light, away)), opacity));
 }
