@@ -44,7 +44,7 @@ SINCE = {
 # What only sets a state, or asks for one: quickly done, whatever the GPU is at.
 STATE = ("glIs", "glEnable", "glDisable", "glBind", "glActive", "glBlend", "glDepth", "glColor",
          "glCull", "glFront", "glPolygon", "glLogic", "glProvoking", "glPrimitive", "glViewport",
-         "glScissor", "glPixelStore")  # fmt: skip
+         "glScissor", "glPixelStore", "glQueryCounter", "glBeginQuery", "glEndQuery")  # fmt: skip
 
 
 class GL:

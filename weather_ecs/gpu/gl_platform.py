@@ -53,10 +53,8 @@ def first_of(*lookups: Lookup) -> Lookup:
 
 def prototype(library: ctypes.CDLL, name: str, *arguments: type) -> Callable[..., int | None]:
     """A function of `library` that returns a pointer."""
-    function = getattr(library, name)
-    function.restype = ADDRESS
-    function.argtypes = list(arguments)
-    return function  # type: ignore[no-any-return]
+    address = ctypes.cast(getattr(library, name), ADDRESS).value
+    return QUICK(ADDRESS, *arguments)(address)  # type: ignore[no-any-return]
 
 
 def linux_sources() -> list[tuple[Current, Lookup]]:

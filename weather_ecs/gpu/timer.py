@@ -40,19 +40,20 @@ class QueryRing:
     def finished(self) -> list[tuple[int, ...]]:
         """Results of every group that has them all, oldest first; does not wait."""
         results = []
-        while self._waiting:
-            group = self._waiting[0]
+        waiting, ready, value = self._waiting, self._ready, self._value
+        while waiting:
+            group = waiting[0]
             # The last query of a group is the last to be done.
             self._ask(group[-1], e.QUERY_RESULT_AVAILABLE, self._ready_place)
-            if not self._ready.value:
+            if not ready.value:
                 break
-            results.append(tuple(self._result(name) for name in group))
-            self._free.append(self._waiting.popleft())
+            found = []
+            for name in group:
+                self._read(name, e.QUERY_RESULT, self._place)
+                found.append(int(value.value))
+            results.append(tuple(found))
+            self._free.append(waiting.popleft())
         return results
-
-    def _result(self, name: int) -> int:
-        self._read(name, e.QUERY_RESULT, self._place)
-        return int(self._value.value)
 
     def release(self) -> None:
         """Give the query objects back; twice does no harm."""

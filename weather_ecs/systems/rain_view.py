@@ -17,6 +17,7 @@ from weather_ecs.frame import (
     SNOW,
     AreaRow,
     ContainerData,
+    DropLook,
     FrameData,
     VeilData,
     ViewData,
@@ -87,6 +88,8 @@ class RainView:
         self._births: dict[tuple[int, int], np.ndarray] = {}
         self._floor = SceneFloor()
         self._fronts = NO_FRONTS
+        self._look: DropLook | None = None
+        self._size = ContainerSettings()  # of that look
 
     def forget(self, key: int) -> None:
         """Drop what is remembered of an observer."""
@@ -132,7 +135,9 @@ class RainView:
         dt: float,
     ) -> list[ContainerData]:
         look = frame.look
-        size = ContainerSettings(look.reach, look.height, look.margin)
+        if look is not self._look:
+            self._look, self._size = look, ContainerSettings(look.reach, look.height, look.margin)
+        size = self._size
         first, seen.fresh = seen.fresh, False
         if first or frame.time - seen.floor_time >= _FLOOR_EVERY:
             seen.floor_time = frame.time
