@@ -120,7 +120,7 @@ class StateGuard:
         )
         self._scope.__enter__()
         self._state.baseline()
-        self.bind_framebuffer()
+        self._aim()
 
     def _exit(self) -> None:
         if not self.gl.is_current():
@@ -159,16 +159,20 @@ class StateGuard:
 
     def bind_framebuffer(self) -> None:
         """Draw to the host's framebuffer and viewport again, after drawing somewhere else."""
-        gl, ctx = self.gl, self.ctx
-        gl.glBindFramebuffer(e.FRAMEBUFFER, self._state.draw_framebuffer)
-        mglo: Any = ctx.mglo
-        mglo.fbo = self._framebuffer.mglo
-        ctx.fbo = self._framebuffer
-        # Through moderngl, so that its notion of the viewport is right as well.
-        self._framebuffer.mglo.viewport = self._state.viewport
+        self._aim()
+        gl = self.gl
         gl.glDisable(e.SCISSOR_TEST)
         gl.glColorMask(1, 1, 1, 1)
         gl.glDepthMask(1)
+
+    def _aim(self) -> None:
+        """At the host's framebuffer and viewport."""
+        ctx: Any = self.ctx
+        self.gl.glBindFramebuffer(e.FRAMEBUFFER, self._state.draw_framebuffer)
+        ctx.mglo.fbo = self._framebuffer.mglo
+        ctx.fbo = self._framebuffer
+        # Through moderngl, so that its notion of the viewport is right as well.
+        self._framebuffer.mglo.viewport = self._state.viewport
 
     def reset(self) -> None:
         """The state of the beginning once more: after code of the host's ran inside the guard."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,8 +47,7 @@ _DEEPER = 4.0  # m/s, how fast it comes to reach deeper, or less deep
 _FIT_RATE = 0.35
 
 
-@dataclass(frozen=True, slots=True)
-class Area:
+class Area(NamedTuple):
     """The rain area as the placing sees it; metres and radians."""
 
     center: tuple[float, float]
@@ -65,8 +65,7 @@ class ContainerSettings:
     margin: float = 0.75
 
 
-@dataclass(frozen=True, slots=True)
-class Container:
+class Container(NamedTuple):
     """A placed container; metres, radians, world axes."""
 
     center: tuple[float, float]  # middle of the flat back, (x, z)
