@@ -209,10 +209,10 @@ def test_a_billboard_never_goes_while_the_cloud_grows(
 
 def test_light_is_less_the_more_is_absorbed_and_the_base_is_dark() -> None:
     light = surround((0.0, 0.8, 0.6), (1, 0.95, 0.9), (0.2, 0.3, 0.6), (0.5, 0.6, 0.7), (0.2,) * 3)
-    body = Body(np.array([500.0, 200.0, 500.0]), -190.0)
+    body = Body(np.array([500.0, 200.0, 500.0]), -190.0, thick=1.0 / 50.0)
     w = np.array([[1.0, 0.0, 0.0]] * 2)
     v = np.array([[0.0, 150.0, 0.0], [0.0, -150.0, 0.0]])
-    s = 0.3 * v
+    s = v
     none, half, all_ = (
         cloud_light.full_light(v, s, w, np.full(2, a), body, light) for a in (0.0, 0.5, 1.0)
     )
@@ -222,9 +222,39 @@ def test_light_is_less_the_more_is_absorbed_and_the_base_is_dark() -> None:
     assert (none.lit[0] > none.lit[1]).all()
     assert none.facing[0] > 0.8 > 0.4 > none.facing[1]
     dark = cloud_light.full_light(
-        v, s, w, np.full(2, 0.5), Body(body.half_size, -190.0, 1.0), light
+        v, s, w, np.full(2, 0.5), Body(body.half_size, -190.0, 1.0, thick=body.thick), light
     )
     assert (dark.lit[1] < 0.7 * half.lit[1]).all()
+
+
+def test_a_top_is_in_the_sun_whatever_its_seed_has_lost() -> None:
+    """A seed as high as the cloud is lit by what its middle loses; its top loses no such thing."""
+    light = surround((0.0, 0.6, 0.8), (1, 0.95, 0.9), (0.2, 0.3, 0.6), (0.5, 0.6, 0.7), (0.2,) * 3)
+    body = Body(np.array([3000.0, 800.0, 3000.0]), -800.0, 0.85, thick=1.0 / 1500.0)
+    high = np.array([-800.0, 0.0, 600.0, 800.0])
+    v = np.stack([0.0 * high, high, 0.0 * high], axis=1)
+    down = np.array([[0.0, -1.0, 0.0]] * 4)
+    lit = cloud_light.full_light(v, 0.0 * v, down, np.ones(4), body, light).lit[:, 0]
+    assert (np.diff(lit) > 0.0).all()
+    clear = cloud_light.full_light(v, 0.0 * v, down, np.zeros(4), body, light).lit[:, 0]
+    assert lit[3] == pytest.approx(clear[3])
+    assert lit[0] < 0.7 * clear[0]
+    # And a dark base makes no dark top.
+    fair = cloud_light.full_light(
+        v, 0.0 * v, down, np.ones(4), Body(body.half_size, -800.0, 0.0, thick=body.thick), light
+    ).lit[:, 0]
+    assert lit[3] > 0.95 * fair[3]
+    assert lit[0] < 0.6 * fair[0]
+
+
+def test_of_a_tower_only_the_foot_is_dark() -> None:
+    light = surround((0.0, 0.6, 0.8), (1, 0.95, 0.9), (0.2, 0.3, 0.6), (0.5, 0.6, 0.7), (0.2,) * 3)
+    body = Body(np.array([3000.0, 5000.0, 3000.0]), -5000.0, 0.9, thick=1.0 / 3000.0)
+    v = np.array([[0.0, -5000.0, 0.0], [0.0, -5000.0 + cloud_light.FOOT, 0.0], [0.0, 5000.0, 0.0]])
+    w = np.array([[1.0, 0.0, 0.0]] * 3)
+    lit = cloud_light.full_light(v, v, w, np.zeros(3), body, light).lit[:, 0]
+    assert lit[0] < 0.5 * lit[1]
+    assert lit[1] == pytest.approx(lit[2], rel=0.1)
 
 
 def test_the_lining_is_towards_the_sun_and_at_the_rim() -> None:

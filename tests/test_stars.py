@@ -11,7 +11,6 @@ from weather_ecs.frame import AREA_DTYPE
 from weather_ecs.physics.rain_ahead import FAR, bow_strength, rain_along
 from weather_ecs.physics.stars import FAINTEST, stars
 
-
 CEILING = 900.0  # m, of the areas
 
 

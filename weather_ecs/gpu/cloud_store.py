@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.frame import CloudShapeData
+from weather_ecs.gpu.cloud_sides import Mask, hidden_sides
 from weather_ecs.physics.cloud_images import IMAGE_DETAIL
 from weather_ecs.physics.cloud_spread import Spread
 
@@ -30,7 +31,9 @@ class StoredShape:
     reach: float  # m, of the sphere round the centre that holds every billboard
     detail: float  # 0 to 1: how much of the picture's resolution it needs
     wide: float  # m, of a billboard in the middle of their order by width
+    wide_top: float  # the same with those that only who is above it sees
     before: NDArray[np.float32]  # absorptions that it comes from
+    sides: tuple[Mask, Mask] | None  # billboards hidden from below, and from above
     fresh: float = 1.0  # share of those it has now
     versions: int = 0  # counts what changes its picture
 
@@ -99,7 +102,8 @@ class CloudStore:
         self.seeds = ItemTexture(ctx, 2)
         self.shapes: list[StoredShape] = []
         self.half = np.zeros((0, 3))
-        self.base = self.reach = self.thick = self.detail = self.wide = np.zeros(0)
+        self.base = self.reach = self.thick = self.detail = np.zeros(0)
+        self.wide = self.wide_top = np.zeros(0)
         self._known: dict[int, StoredShape] = {}
         self._tuple: tuple[CloudShapeData, ...] = ()
         self._fading: set[int] = set()
@@ -123,6 +127,7 @@ class CloudStore:
             self.reach = np.array([s.reach for s in stored])
             self.detail = np.array([s.detail for s in stored])
             self.wide = np.array([s.wide for s in stored])
+            self.wide_top = np.array([s.wide_top for s in stored])
             self.thick = np.array([1.0 / max(s.data.penetration, 1e-3) for s in stored])
         if len(self._known) > len(shapes):
             living = {data.key for data in shapes}
@@ -148,6 +153,8 @@ class CloudStore:
         spread = Spread.over(position, b["seed"], data.centers, data.sizes)
         items = _items(data, seeds)
         _put_light(items, spread, data, data.absorbed)
+        sides = hidden_sides(data)
+        usual = b[~(sides[0] | sides[1])] if sides else b
         shape = StoredShape(
             data,
             self.billboards.take(items),
@@ -157,9 +164,11 @@ class CloudStore:
             position,
             spread,
             float((np.linalg.norm(position, axis=1) + reach.max(1)).max()) if len(b) else 1.0,
-            float(np.take(IMAGE_DETAIL, b["image"]).mean()) if len(b) else 1.0,
+            float(np.take(IMAGE_DETAIL, usual["image"]).mean()) if len(b) else 1.0,
+            float(np.median(usual["size"][:, 0])) if len(b) else 1.0,
             float(np.median(b["size"][:, 0])) if len(b) else 1.0,
             np.asarray(data.absorbed, np.float32),
+            sides,
         )
         self._known[data.key] = shape
         return shape

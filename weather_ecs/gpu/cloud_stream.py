@@ -78,6 +78,8 @@ class CloudStream:
                 return known[2]
         away = shape.position - eye.astype(np.float32)
         order = np.argsort(-np.einsum("ij,ij->i", away, away), kind="stable")
+        if shape.sides is not None and abs(eye[1]) > -shape.base:
+            order = order[~shape.sides[int(eye[1] > 0.0)][order]]
         found = (order + shape.first).astype(np.uint32)
         self._sorted[key] = (shape, eye, found)
         return found

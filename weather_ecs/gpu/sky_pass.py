@@ -12,6 +12,7 @@ from weather_ecs.frame import AtmosphereData, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
 from weather_ecs.gpu.flash import HAZE, flash_of
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
+from weather_ecs.gpu.sky_floor import SkyFloor
 from weather_ecs.gpu.sky_ring import SkyRings, sun_light
 from weather_ecs.gpu.weather_sky import WeatherSky
 from weather_ecs.physics.optics import CLEAR
@@ -27,8 +28,9 @@ SKY_VIEW = UniformBlock(
     ("sky_back", "vec4"),
     ("sky_fog", "vec4"),  # rgb; m of it overhead
     ("sky_law", "vec4"),  # its extinction, 1/m, 0 where another pass draws it; scale of points;
-    # where the horizon is, in clip space
+    # where the horizon is, in clip space; optical depth of the air straight down
     ("sky_flash", "vec4"),  # rgb: what deep air shows of lightning; optical depth of that overhead
+    ("sky_floor", "vec4"),  # rgb: of clouds below; share of them
 )
 GRID = ProgramKey(vertex="sky.vert", fragment="sky.frag")
 SUN = ProgramKey(vertex="sky_disc.vert", fragment="sky_disc.frag")
@@ -59,7 +61,7 @@ class SkyPass:
         self._star_array = ctx.vertex_array(
             self._stars, [(self._star_rows, "4f4 3f4", "in_star", "in_tint")]
         )
-        self._rings = SkyRings(ctx, shaders)
+        self._rings, self._floor = SkyRings(ctx, shaders), SkyFloor()
         self._bow: NDArray | None = None
 
     def draws(self, view: ViewData) -> bool:
@@ -152,7 +154,9 @@ class SkyPass:
         up, back = float(turn[1, 1]), float(turn[2, 1])
         horizon = p[1, 1] * back / max(abs(up), 1e-6) - p[1, 2]
         level = min(max(float(horizon), -1.0), 1.0)
-        data["sky_law"] = (thick, max(height / 720.0, 0.6), level, 0.0)
+        floor = self._floor.of(view)
+        data["sky_law"] = (thick, max(height / 720.0, 0.6), level, floor.depth)
+        data["sky_floor"] = (*floor.color, floor.share)
         block.upload()
         block.bind()
 

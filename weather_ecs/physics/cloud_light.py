@@ -57,6 +57,8 @@ def surround(
     return Surround(towards, sun, above, below, plain)
 
 
+FOOT = 2600.0  # m of a tower that count as its base
+OVERLAP = 1.3  # seeds in which a ray is at once
 FLASH_SHADE = 0.8  # of lightning's light, on what is turned from the sun
 
 
@@ -113,9 +115,12 @@ def full_light(
     n = 0.42 * whole / np.maximum(_length(whole), 1e-9)
     n = n + 0.50 * own / np.maximum(_length(own), 1e-3) - 0.36 * w
     n = n / np.maximum(_length(n), 1e-6)
-    rise = np.clip((v[..., 1] - body.base) / (2.0 * body.half_size[1]), 0.0, 1.0)
+    high = 2.0 * body.half_size[1]
+    rise = np.clip((v[..., 1] - body.base) / min(high, FOOT), 0.0, 1.0)
     towards = n @ light.direction
     a = np.clip(a - 0.6 * body.thick * (own @ light.direction), 0.0, 1.0)
+    under_top = np.maximum(high + body.base - v[..., 1], 0.0) / max(light.direction[1], 0.15)
+    a = np.minimum(a, OVERLAP * body.thick * under_top)
     through = np.exp(-0.75 * a)
 
     up = 0.5 + 0.5 * n[..., 1]
@@ -124,7 +129,8 @@ def full_light(
     ambient = ambient * (ambience * (0.62 + 0.38 * rise))[..., None]
     deep = bases * (0.30 + 0.70 * body.darkness)
     under = 1.0 - deep * (1.0 - smoothstep(0.0, 0.55, rise)) * 0.62
-    dim = (under * (1.0 - 0.38 * body.darkness * bases))[..., None]
+    gloom = 1.0 - 0.38 * body.darkness * bases * (1.0 - 0.9 * smoothstep(0.4, 1.0, rise))
+    dim = (under * gloom)[..., None]
 
     sun = light.sun * through[..., None]
     ahead = w @ light.direction

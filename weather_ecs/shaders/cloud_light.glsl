@@ -4,6 +4,9 @@
 #include <block:CloudView>
 #include "encode.glsl"
 
+const float FOOT = 2600.0;  // m
+const float OVERLAP = 1.3;  // seeds in which a ray is at once
+
 struct Light {
     vec3 lit;  // of what faces the sun
     vec3 shade;  // of what is turned from it
@@ -32,10 +35,15 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     vec3 n = 0.42 * whole / max(length(whole), 1e-9) + 0.50 * own / max(length(own), 1e-3)
         - 0.36 * way;
     n /= max(length(n), 1e-6);
-    float rise = clamp((v.y - cloud.base) / (cloud.half_size.y * 2.0), 0.0, 1.0);
+    // Of a tower only the foot counts as base.
+    float high = cloud.half_size.y * 2.0;
+    float rise = clamp((v.y - cloud.base) / min(high, FOOT), 0.0, 1.0);
     float towards = dot(cloud_sun.xyz, n);
     // The ray was followed from the seed's centre; the side towards the sun has less before it.
     a = clamp(a - 0.6 * cloud.thick * dot(own, cloud_sun.xyz), 0.0, 1.0);
+    // Under its top no ray has come farther than from there.
+    float under_top = max(high + cloud.base - v.y, 0.0) / max(cloud_sun.y, 0.15);
+    a = min(a, OVERLAP * cloud.thick * under_top);
     float through = exp(-0.75 * a);
 
     // Sky from above, ground and lit air from below; less of both deep inside.
@@ -44,7 +52,8 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     ambient *= cloud_look.z * (0.62 + 0.38 * rise);
     float deep = cloud_look.y * (0.30 + 0.70 * cloud.darkness);
     float under = 1.0 - deep * (1.0 - smoothstep(0.0, 0.55, rise)) * 0.62;
-    float gloom = 1.0 - 0.38 * cloud.darkness * cloud_look.y;
+    // Its top has the sun that never comes to the base.
+    float gloom = 1.0 - 0.38 * cloud.darkness * cloud_look.y * (1.0 - 0.9 * smoothstep(0.4, 1.0, rise));
 
     vec3 sun = cloud_sun_color.rgb * through;
     float ahead = dot(way, cloud_sun.xyz);

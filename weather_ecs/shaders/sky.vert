@@ -17,6 +17,8 @@ void main()
     vec2 place = vec2(in_place.x * 2.0 - 1.0, y);
     vec3 ray = vec3((place + sky_frustum.zw) * sky_frustum.xy, -1.0);
     vec3 d = normalize(ray.x * sky_right.xyz + ray.y * sky_up.xyz + ray.z * sky_back.xyz);
-    vs_color = sky_shown(sky_in_fog(weather_sky(d) + sky_flashed(d), d));
+    vec3 light = weather_sky(d);
+    if (d.y < 0.0) light = sky_below(light, d, weather_sky(vec3(d.x, 0.0, d.z)));
+    vs_color = sky_shown(sky_in_fog(light + sky_flashed(d), d));
     gl_Position = vec4(place, 1.0, 1.0);
 }

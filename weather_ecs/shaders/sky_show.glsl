@@ -30,6 +30,15 @@ vec3 sky_flashed(vec3 direction)
     return sky_flash.rgb * (1.0 - exp(-sky_flash.w / (max(direction.y, 0.0) + 0.05)));
 }
 
+// What is seen along a direction below the horizon; `land`: the ground there, `level`: the sky over it.
+// physics/sky_floor.floor_light in NumPy.
+vec3 sky_below(vec3 land, vec3 direction, vec3 level)
+{
+    float cloud = sky_floor.w * (1.0 - exp(40.0 * direction.y));
+    land = mix(land, sky_floor.rgb, cloud);
+    return mix(level, land, exp(-sky_law.w / (0.02 - direction.y)));
+}
+
 // At the far plane: whatever the scene has drawn is in front.
 vec4 sky_position(vec3 direction)
 {
