@@ -100,10 +100,17 @@ def _enlarged(
 ) -> Floats:
     """(n,) pixels on a side of a texel that counts."""
     away = np.maximum(scene.away[drawn], MIDST * scene.reach[drawn])
-    wide = store.wide[scene.shapes[drawn]] * scene.clouds["scale"][drawn] * (scene.unit / away)
+    wide = _widths(scene, store, drawn) * scene.clouds["scale"][drawn] * (scene.unit / away)
     detail = np.maximum(store.detail[scene.shapes[drawn]], 0.05)
     pictured = scene.pixels[drawn] / (detail * np.maximum(tiles, 1))
     return SHARP * np.where(bills, wide / (SIZE * detail), pictured)
+
+
+def _widths(scene: CloudScene, store: CloudStore, which: NDArray) -> Floats:
+    """(n,) m, of a billboard, at a scale of 1; from above those of a sheet's top count as well."""
+    shapes, above = scene.shapes[which], scene.center[which, 1] < -scene.half[which, 1]
+    widths: Floats = np.where(above, store.wide_top[shapes], store.wide[shapes])
+    return widths
 
 
 def _guard(center: Floats, half: Floats) -> tuple[int, tuple[Floats, float]]:
