@@ -18,14 +18,7 @@ from weather_ecs.gpu.sky_ring import thinned
 from weather_ecs.physics import bows
 from weather_ecs.presets import WholeWeather
 
-
-@pytest.fixture(autouse=True)
-def world() -> Iterator[None]:
-    """Every test has a world of its own."""
-    esper.switch_world("sky")
-    yield
-    esper.switch_world("default")
-    esper.delete_world("sky")
+pytestmark = pytest.mark.usefixtures("world")
 
 
 @pytest.fixture

@@ -51,6 +51,19 @@ def test_open_save_and_save_as(files, path, tmp_path):
         files.save(document)
 
 
+def test_an_older_version_is_written_as_the_present_one(tmp_path, files):
+    path = tmp_path / "old.toml"
+    path.write_bytes(b"version = 1 # old\r\n[[layers]] # mine\r\nbase = 5 # m\r\n")
+    document = opened(files, path)
+    assert not document.dirty
+    with_fog(document)
+    files.save(document)
+    text = path.read_bytes()
+    assert text.startswith(b"version = 2 # old\r\n[[layers]] # mine\r\nbase = 5 # m\r\n")
+    assert text.count(b"\n") == text.count(b"\r\n")  # lines end as they did
+    assert load_clouds(path).fog is not None
+
+
 def test_a_bad_file_leaves_the_document_as_it_was(files, path, tmp_path):
     document = opened(files, path)
     with_fog(document)

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from tests.editor_texts import WRITTEN, opened, with_fog
+from tests.editor_texts import WRITTEN
 from tests.file_values import contents
-from weather_ecs import CloudFile, load_clouds
+from weather_ecs import CloudFile
 from weather_ecs.cloud_files import read_content
 from weather_ecs.components import Climate, CloudModel, CloudSeed, RainArea, Wind
 from weather_ecs.editor import content as changes
-from weather_ecs.editor import files as files_module
-from weather_ecs.editor.files import Files
 from weather_ecs.editor.kept_text import kept_text, match
-from weather_ecs.editor.recent import Recent
 from weather_ecs.file_tables import document_of
 
 QUICK = settings(
@@ -27,19 +23,6 @@ QUICK = settings(
     derandomize=True,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
-
-
-@pytest.fixture
-def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Files:
-    monkeypatch.setattr(files_module, "LOOK_EVERY", 0.0)
-    return Files(Recent(tmp_path / "settings" / "recent.json"))
-
-
-@pytest.fixture
-def path(tmp_path: Path) -> Path:
-    place = tmp_path / "evening.toml"
-    place.write_text(WRITTEN, encoding="utf-8")
-    return place
 
 
 def kept(content: CloudFile) -> str:
@@ -144,19 +127,6 @@ def test_ways_of_writing_that_few_know(text, monkeypatch):
     assert repr(document_of(read_content("f", got))) == repr(document_of(changed))
     assert "# one" in got or "climate.x_mine.a" in text or "{x_mine" in text
     assert ("x_mine" in got) == ("x_mine" in text)
-
-
-def test_an_older_version_is_written_as_the_present_one(tmp_path, files):
-    path = tmp_path / "old.toml"
-    path.write_bytes(b"version = 1 # old\r\n[[layers]] # mine\r\nbase = 5 # m\r\n")
-    document = opened(files, path)
-    assert not document.dirty
-    with_fog(document)
-    files.save(document)
-    text = path.read_bytes()
-    assert text.startswith(b"version = 2 # old\r\n[[layers]] # mine\r\nbase = 5 # m\r\n")
-    assert text.count(b"\n") == text.count(b"\r\n")  # lines end as they did
-    assert load_clouds(path).fog is not None
 
 
 @settings(QUICK, max_examples=25, phases=[Phase.generate])

@@ -25,13 +25,7 @@ from weather_ecs.presets import WholeWeather
 TIMES = ("12:00", "19:30", "20:15", "23:00")
 
 
-@pytest.fixture(autouse=True)
-def world() -> Iterator[None]:
-    """Every test has a world of its own."""
-    esper.switch_world("sky")
-    yield
-    esper.switch_world("default")
-    esper.delete_world("sky")
+pytestmark = pytest.mark.usefixtures("world")
 
 
 @pytest.fixture
