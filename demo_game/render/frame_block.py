@@ -50,8 +50,9 @@ class FrameBlock:
     def attach(self, *programs: moderngl.Program, name: str = "Frame") -> None:
         """Point the programs' block at this buffer's binding."""
         for program in programs:
-            if name in program:
-                program[name].binding = BINDING  # type: ignore[union-attr]
+            block = program.get(name, None)
+            if block is not None:
+                block.binding = BINDING  # type: ignore[union-attr]
 
     def camera(self, view: NDArray, projection: NDArray) -> NDArray:
         """Set the camera; returns its position, m."""

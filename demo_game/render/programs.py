@@ -74,8 +74,9 @@ class Variants:
 def set_uniforms(program: moderngl.Program, **values: object) -> None:
     """Set those uniforms that the compiler kept."""
     for name, value in values.items():
-        if name in program:
-            program[name] = value
+        uniform = program.get(name, None)  # `in` goes through all of them
+        if uniform is not None:
+            uniform.value = value  # type: ignore[union-attr]
 
 
 def set_matrix(program: moderngl.Program, name: str, *matrices: NDArray) -> None:

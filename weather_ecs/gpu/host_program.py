@@ -16,13 +16,14 @@ def use_maps(program: Any, unit: int, **maps: moderngl.Texture) -> None:
     """
     for number, (name, texture) in enumerate(maps.items(), unit):
         texture.use(number)
-        if name in program:
-            program[name] = number
+        uniform = program.get(name, None)  # `in` goes through all of them
+        if uniform is not None:
+            uniform.value = number
 
 
 def use_block(program: Any, buffer: BlockBuffer) -> None:
     """Bind a block to the binding it has, and point the program's at it, if it has one."""
-    name = buffer.block.name
-    if name in program:
-        program[name].binding = buffer.binding
+    block = program.get(buffer.block.name, None)
+    if block is not None:
+        block.binding = buffer.binding
         buffer.bind()
