@@ -10,10 +10,11 @@ import pytest
 
 from tests.cloud_worlds import drawn, four_skies, layer, model, seconds, sky
 from weather_ecs import Weather
-from weather_ecs.components import Climate, Cloud, CloudRoot, CloudSeed, SkyLayer, Sun
+from weather_ecs.components import Atmosphere, Climate, Cloud, CloudRoot, CloudSeed, SkyLayer, Sun
+from weather_ecs.frame import SkyLight
 from weather_ecs.physics.absorption import absorbed, path_lengths
 from weather_ecs.systems import cloud_shapes
-from weather_ecs.systems.cloud_light import light_one
+from weather_ecs.systems.cloud_light import light_one, sun_direction
 from weather_ecs.systems.cloud_shapes import TURNS, ShapeLibrary, local, turn_of
 
 pytestmark = pytest.mark.usefixtures("world")
@@ -34,6 +35,20 @@ def sunny(count: int = 60, models: int = 5) -> tuple[Weather, Sun]:
     esper.create_entity(layer((sky(0.0, count, *names),), velocity=(0.0, 0.0)))
     drawn(weather)
     return weather, sun
+
+
+def test_light_comes_from_the_sun_or_an_atmosphere():
+    weather = Weather()
+    state = weather._state
+    assert sun_direction(state) == SkyLight().sun_direction
+    low = at_angle(70.0)
+    esper.create_entity(Sun(low))
+    esper.process(0.0)
+    assert sun_direction(state) == pytest.approx(low)
+    esper.create_entity(Atmosphere("2025-06-21T12:00:00Z", latitude=45.0))
+    drawn(weather)
+    noon = sun_direction(state)
+    assert math.degrees(math.acos(noon[1])) == pytest.approx(45.0 - 23.44, abs=0.1)
 
 
 def test_clouds_are_lit_before_they_are_first_seen():

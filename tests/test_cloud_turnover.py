@@ -12,6 +12,7 @@ from tests.cloud_worlds import drawn, four_skies, layer, places, record, seconds
 from weather_ecs import Weather
 from weather_ecs.components import Climate, Sky
 from weather_ecs.systems.cloud_layer import FORMING
+from weather_ecs.systems.cloud_mix import mix_at
 
 pytestmark = pytest.mark.usefixtures("world")
 
@@ -93,6 +94,22 @@ def test_very_many_clouds_come_at_once_without_looking_for_room_one_by_one():
     assert len(calls) < 300
     halves = np.count_nonzero(places(of)[of.array.dying < 0] < 0.0, axis=0)
     assert (np.abs(halves - 10_000) < 300).all()
+
+
+def test_a_layer_is_completed_to_the_number_of_its_mix():
+    before, after = sky(0.0, 40, "a"), sky(1.0, 24, "b")
+    esper.create_entity(layer((before,), velocity=(0.0, 0.0)))
+    weather = Weather()
+    seconds(2.0)
+    clouds = record(weather)
+    assert clouds.array.standing == 40
+    clouds.complete(mix_at((before, after), 0.5))  # 32, half of each sky
+    assert clouds.array.standing == 32
+    assert len(clouds.array) == 40  # eight are dissolving
+    clouds.complete(mix_at((after,), 1.0))
+    assert clouds.array.standing == 24
+    clouds.complete(mix_at((before,), 0.0))
+    assert clouds.array.standing == 40 and clouds.array.count_of(0.0) == 40
 
 
 # Rectangles
