@@ -18,7 +18,15 @@ from tests.rain_frames import area, frame
 from tests.targets import bound_target
 from tests.views import look_from, perspective
 from weather_ecs import Weather
-from weather_ecs.components import Occluder, RainArea, RainGauge, SnowFlakes, SplashEmitter, Wind
+from weather_ecs.components import (
+    Occluder,
+    PointLight,
+    RainArea,
+    RainGauge,
+    SnowFlakes,
+    SplashEmitter,
+    Wind,
+)
 from weather_ecs.frame import SNOW, AirData, SnowLook, ViewData, WindProfile
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.rain_pass import RainPass
@@ -218,3 +226,27 @@ def test_flakes_of_a_few_pixels_show_as_much_without_their_pictures(ctx: moderng
     assert added["compute"] > 0.005
     for thing in (*target.color_attachments, target.depth_attachment, target):
         thing.release()
+
+
+@pytest.mark.usefixtures("world")
+@pytest.mark.parametrize("falls", [COLD, AirData()], ids=["snow", "rain"])
+def test_what_draws_without_lamps_draws_the_same(
+    ctx: moderngl.Context,
+    backend: str,
+    target: moderngl.Framebuffer,
+    air: dict[str, AirData],
+    falls: AirData,
+) -> None:
+    air["air"] = falls
+    with Weather(context=ctx, backend=backend, quality="low", seed=3) as weather:
+        esper.create_entity(RainArea((0, 0), (200, 200), 8.0))
+        watch(weather, 0.5)
+        none = picture(weather, target, 0.1)
+        lamp = PointLight((0.0, 500.0, 0.0), reach=1.0)
+        esper.create_entity(lamp)
+        esper.process(0.0)
+        assert (picture(weather, target, 0.1) == none).all()
+        lamp.position, lamp.color, lamp.reach = (2.0, 2.0, 0.0), (20.0, 20.0, 20.0), 20.0
+        esper.process(0.0)
+        change = picture(weather, target, 0.1) - none
+        assert change.min() > -0.004 and change.max() > 0.015

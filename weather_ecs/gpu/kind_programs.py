@@ -30,6 +30,17 @@ def step_name(sheltered: bool, steady: bool) -> str:
     return "sheltered " * sheltered + "steady " * steady + "step"
 
 
+def draw_name(lit: bool) -> str:
+    """Of the array that draws, with lamps or without."""
+    return "lit streak" if lit else "streak"
+
+
+def by_lamps(shaders: ShaderLoader, key: ProgramKey) -> dict[bool, moderngl.Program]:
+    """A program without lamps and one with them."""
+    dark = replace(key, defines=(*key.defines, "NO_LAMPS"))
+    return {False: shaders.program(dark), True: shaders.program(key)}
+
+
 class KindPrograms:
     """Made when the first container of its kind comes; snow brings its pictures and its block."""
 
@@ -45,19 +56,22 @@ class KindPrograms:
                 if "shelter_map" in program:
                     program["shelter_map"] = SHELTER_UNIT
                 self.steps[step_name(sheltered, steady)] = program
-        self.draw = shaders.program(FLAKE if kind == SNOW else STREAK)
+        # By whether lamps shine on it.
+        self.draw = by_lamps(shaders, FLAKE if kind == SNOW else STREAK)
         # With lists, flakes of a few pixels are drawn without pictures.
         self.cull: Any = shaders.program(replace(CULL, defines=defines)) if compute else None
-        self.far = shaders.program(FAR_FLAKE) if compute and kind == SNOW else None
+        self.far = by_lamps(shaders, FAR_FLAKE) if compute and kind == SNOW else None
         # Those that read drops as vertices, by name.
-        self.readers: dict[str, moderngl.Program] = {} if compute else {"streak": self.draw}
+        self.readers: dict[str, moderngl.Program] = {}
         if not compute:
+            self.readers = {draw_name(lit): program for lit, program in self.draw.items()}
             self.readers |= self.steps
         self._block: BlockBuffer | None = None
         if kind == SNOW:
             self._block = BlockBuffer(ctx, SNOW_BLOCK)
             self._pictures = flake_texture(ctx)
-            self.draw["flake_pictures"] = PICTURES_UNIT
+            for program in self.draw.values():
+                program["flake_pictures"] = PICTURES_UNIT
 
     def use(self, container: ContainerData, view: ViewData, drawing: bool = False) -> None:
         """Bind what the kind has of its own, for the step or for drawing."""

@@ -14,7 +14,7 @@ from weather_ecs.gpu.drop_set import DropSet
 from weather_ecs.gpu.impact_list import ImpactList
 from weather_ecs.gpu.kind_programs import MOTION_UNIT as MOTION_UNIT
 from weather_ecs.gpu.kind_programs import SHELTER_UNIT as SHELTER_UNIT
-from weather_ecs.gpu.kind_programs import KindPrograms, step_name
+from weather_ecs.gpu.kind_programs import KindPrograms, draw_name, step_name
 from weather_ecs.gpu.rain_blocks import DRAW, RAIN_DRAW, RAIN_STEP, STEP
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.streak_list import StreakList
@@ -201,6 +201,7 @@ class RainPass:
         """Draws the streaks into the bound framebuffer."""
         self.bind_blocks(view)
         seen = self._observed[view.key]
+        lit = len(view.frame.lights) > 0
         for container in view.containers:
             drops = seen.sets[container.key]
             self.fill_container(container, view)
@@ -208,11 +209,11 @@ class RainPass:
             kind.use(container, view, drawing=True)
             count = min(drops_used(container, drops), drops.alive)
             if kind.cull is None:
-                drops.array("streak").render(moderngl.POINTS, vertices=count)
+                drops.array(draw_name(lit)).render(moderngl.POINTS, vertices=count)
                 continue
             if drops.streaks is None:
                 drops.streaks = StreakList(self._ctx, drops, kind.draw, kind.far)
-            drops.streaks.draw(kind.cull, count, self._order)
+            drops.streaks.draw(kind.cull, count, self._order, lit)
 
     def bind_blocks(self, view: ViewData) -> None:
         """Bind what drawing reads: the block of containers, and the air's."""

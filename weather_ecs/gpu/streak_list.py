@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import moderngl
@@ -18,30 +19,37 @@ COMMAND_BYTES = 20
 class StreakList:
     """Four bytes a drop, and a draw command a chunk; the order is that of the drops.
 
-    With `far`, the program for what is a few pixels large, there are twice as many commands.
+    `draw` are the programs without lamps and with them. With `far`, those for what is a few pixels
+    large, there are twice as many commands.
     """
 
     def __init__(
         self,
         ctx: moderngl.Context,
         drops: DropSet,
-        draw: moderngl.Program,
-        far: moderngl.Program | None = None,
+        draw: Mapping[bool, moderngl.Program],
+        far: Mapping[bool, moderngl.Program] | None = None,
     ) -> None:
         self.drops = drops
         self._ids = ctx.buffer(reserve=4 * drops.capacity)
         chunks = -(-drops.capacity // CHUNK)
         self._commands = ctx.buffer(reserve=COMMAND_BYTES * chunks * (2 if far else 1))
-        self._array = drops.array_for(draw, self._ids)
-        self._far = drops.array_for(far, self._ids) if far else None
+        self._arrays = self._made(draw)
+        self._far = self._made(far or {})
+
+    def _made(self, programs: Mapping[bool, moderngl.Program]) -> dict[bool, moderngl.VertexArray]:
+        return {lit: self.drops.array_for(each, self._ids) for lit, each in programs.items()}
 
     @property
     def size(self) -> int:
         """Bytes on the GPU."""
         return int(self._ids.size + self._commands.size)
 
-    def draw(self, cull: Any, count: int, order: ComputeOrder) -> None:
-        """List those of the first `count` drops that are in view, by the program CULL, and draw."""
+    def draw(self, cull: Any, count: int, order: ComputeOrder, lit: bool) -> None:
+        """List those of the first `count` drops that are in view, by the program CULL, and draw.
+
+        lit: by the programs that know lamps.
+        """
         chunks = -(-count // CHUNK)
         cull["streak_count"] = count
         self.drops.births.bind_to_storage_buffer(0)
@@ -50,14 +58,14 @@ class StreakList:
         self._commands.bind_to_storage_buffer(3)
         cull.run(chunks)
         order.after(moderngl.ELEMENT_ARRAY_BARRIER_BIT | moderngl.COMMAND_BARRIER_BIT)
-        if self._far is not None:
-            self._far.render_indirect(self._commands, moderngl.POINTS, count=chunks, first=chunks)
-        self._array.render_indirect(self._commands, moderngl.POINTS, count=chunks)
+        if self._far:
+            far = self._far[lit]
+            far.render_indirect(self._commands, moderngl.POINTS, count=chunks, first=chunks)
+        self._arrays[lit].render_indirect(self._commands, moderngl.POINTS, count=chunks)
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
-        if self._far is not None:
-            self._far.release()
-        self._array.release()
+        for array in (*self._far.values(), *self._arrays.values()):
+            array.release()
         self._commands.release()
         self._ids.release()
