@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.test_benchmarks import check_shape, report
+from tests.benchmark_reports import check_shape, report
 
 
 def test_clouds_measures_the_dissertation_s_three_skies(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from benchmarks.harness import Timings
 from benchmarks.models.scene import HUT, Scene, ground, hut, steps
 from benchmarks.models.stage import Stage
 from benchmarks.models.struck import StruckRain, case_name
-from test_benchmarks import check_shape, report
+from tests.benchmark_reports import check_shape, report
 
 Keep = Callable[[Any], Any]
 

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks.models.held import crossing, ladder
 from benchmarks.precipitation import PAPER
-from tests.test_benchmarks import check_shape, report
+from tests.benchmark_reports import check_shape, report
 
 
 def test_precipitation_has_the_papers_table_beside_ours(tmp_path: Path) -> None:

@@ -2,36 +2,17 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
 import sys
-from pathlib import Path
 
 import moderngl
 import pytest
 
 from tests.gl_host import read_state
+from tests.processes import run
 from weather_ecs.errors import ContextError, InvalidValueError
 from weather_ecs.gpu import gl_platform
 from weather_ecs.gpu.context import obtain, probe, require
 from weather_ecs.gpu.gl import GL, SIGNATURES, SINCE
-
-ROOT = Path(__file__).resolve().parent.parent
-
-
-def run(script: str, **environment: str) -> str:
-    """What a script prints in a process of its own, where no context was made before."""
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT), **environment},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
 
 
 def test_probe(ctx: moderngl.Context) -> None:

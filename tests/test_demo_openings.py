@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from demo_game.place import Place, cabin
 from demo_game.render import Environment, SceneRenderer, openings
 from demo_game.render.openings import NOTHING, WHOLE, Openings
-from tests.test_demo_render import look, perspective
+from tests.demo_views import look, perspective
 
 SIZE = (160, 90)
 

@@ -19,33 +19,13 @@ from demo_game.render import Environment, SceneRenderer, geometry, programs
 from demo_game.render.frame_block import FRAME_DTYPE, as_matrix
 from demo_game.render.shadows import HIGH, LOW, light_matrix
 from demo_game.render.sky_dome import GLARE, glare_frame
+from tests.demo_views import look, perspective
 from weather_ecs.errors import InvalidValueError
 
 SIZE = (160, 90)
 DRY = Environment(lamps=0.3)
 RAIN = replace(DRY, rain_areas=[((0.0, -70.0), (70.0, 45.0), 0.0, 10.0, 62.0)])
 Keep = Callable[[Any], Any]
-
-
-def look(eye: tuple[float, float, float], at: tuple[float, float, float]) -> NDArray:
-    """(4, 4) view matrix."""
-    forward = np.subtract(at, eye) / np.linalg.norm(np.subtract(at, eye))
-    right = np.cross(forward, (0.0, 1.0, 0.0))
-    right /= np.linalg.norm(right)
-    view = np.eye(4)
-    view[:3, :3] = np.stack([right, np.cross(right, forward), -forward])
-    view[:3, 3] = -view[:3, :3] @ eye
-    return view
-
-
-def perspective(fov: float = 62.0, aspect: float = 16.0 / 9.0) -> NDArray:
-    """(4, 4) projection matrix, near 0.1 m, far 6 km."""
-    f = 1.0 / np.tan(np.radians(fov) / 2.0)
-    near, far = 0.1, 6000.0
-    m = np.zeros((4, 4))
-    m[0, 0], m[1, 1], m[3, 2] = f / aspect, f, -1.0
-    m[2, 2], m[2, 3] = (far + near) / (near - far), 2.0 * far * near / (near - far)
-    return m
 
 
 @pytest.fixture

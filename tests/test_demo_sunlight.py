@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from demo_game.place import Place
 from demo_game.render import Environment, SceneRenderer, sunlight
-from tests.test_demo_render import look, perspective
+from tests.demo_views import look, perspective
 
 SIZE = (160, 90)
 CLEAR = Environment(lamps=0.3)

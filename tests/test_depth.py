@@ -11,7 +11,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from tests.test_context import run
+from tests.processes import run
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.depth import UPLOAD, DepthCopy
 from weather_ecs.gpu.gl import GL

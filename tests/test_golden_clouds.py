@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 from PIL import Image
 
-from tests.test_golden import GOLDEN, check, difference, kept
+from tests.golden_pictures import GOLDEN, check, difference, kept
 from tests.views import look_from, perspective
 from tests.weather_pictures import stage
 from weather_ecs.components import Cloud, Sun

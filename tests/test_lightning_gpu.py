@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tests.cloud_captures import CENTERS, captured, expected_places
 from tests.cloud_stage import cloud_stage, clouds, shape, sky_frame
 from tests.gl_host import read_state
-from tests.test_cloud_light import CENTERS, captured, expected_places
 from tests.views import look_from, perspective
 from tests.worlds import fresh_world
 from weather_ecs import Weather, glsl

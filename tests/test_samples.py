@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tests.boxes import CORNERS, TRIANGLES, placed
-from tests.test_shelter_cpu import hills
+from tests.shelter_shapes import hills
 from weather_ecs import Samples, Weather
 from weather_ecs.components import Air, Fog, Occluder, PointLight, RainArea, SnowFlakes, Wind
 from weather_ecs.errors import ClosedError, InvalidValueError

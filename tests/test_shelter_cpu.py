@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from tests.boxes import CORNERS, TRIANGLES, highest, placed
 from tests.rain_frames import area, frame
+from tests.shelter_shapes import hills
 from weather_ecs.frame import OccluderData
 from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.heightmap import Heightmap
@@ -39,18 +40,6 @@ def brute(corners: np.ndarray, slope: tuple[float, float], u: float, w: float) -
         if (share >= 0.0).all():
             best = max(best, float(share @ triangle[:, 1]))
     return best
-
-
-def hills(n: int, size: float, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
-    """An uneven ground of n by n quads."""
-    rng = np.random.default_rng(seed)
-    at = np.linspace(-size / 2, size / 2, n + 1)
-    x, z = np.meshgrid(at, at)
-    vertices = np.stack([x, rng.uniform(0.0, 0.3 * size / n, x.shape), z], -1).reshape(-1, 3)
-    i, j = np.meshgrid(np.arange(n), np.arange(n))
-    a = (j * (n + 1) + i).ravel()
-    quads = np.stack([a, a + n + 1, a + 1, a + 1, a + n + 1, a + n + 2], 1)
-    return vertices.astype(np.float32), quads.reshape(-1).astype(np.uint32)
 
 
 slopes = st.tuples(st.floats(-2, 2), st.floats(-2, 2))
