@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.boxes import CORNERS, TRIANGLES, placed
-from tests.test_splash_picture import scene
+from tests.splash_scenes import scene
 from tests.weather_pictures import Stage, stage
 from weather_ecs.components import Occluder
 from weather_ecs.systems import queries

@@ -12,10 +12,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.rain_frames import camera, frame, lights
+from tests.rain_frames import lights
 from tests.splash_capture import PICTURE, SplashCapture, impacts, law_of
+from tests.splash_views import LOOK, view_at
 from tests.streak_capture import view_of
-from weather_ecs.frame import RippleData, SplashLook, ViewData, WindProfile
+from weather_ecs.frame import RippleData, WindProfile
 from weather_ecs.gpu import splash_texture as texture
 from weather_ecs.gpu.air_block import flow_of
 from weather_ecs.gpu.view_block import encode
@@ -23,21 +24,6 @@ from weather_ecs.physics import splash
 from weather_ecs.physics.drops import terminal_speed
 from weather_ecs.physics.streak import light_on
 from weather_ecs.physics.turbulence import eddies
-
-LOOK = SplashLook()
-NORTH = math.pi / 2  # the heading of -z
-
-
-def view_at(
-    position: tuple[float, float, float] = (0.0, 1.7, 3.0),
-    pitch: float = -0.5,
-    time: float = 100.0,
-    **rest: object,
-) -> ViewData:
-    """Looking north and down at the origin."""
-    at = camera(position, NORTH, pitch)
-    seen = frame(time=time, **rest)
-    return ViewData(seen, 0, at.view, at.projection, at.position, (0.0, 0.0, 0.0), 1 / 60, (), ())
 
 
 def law(**changes: float) -> splash.SplashLaw:

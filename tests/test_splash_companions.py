@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from tests.splash_capture import Quads, SplashCapture, impacts, law_of
-from tests.test_splash import LOOK, view_at
-from tests.test_splash_picture import play, scene
+from tests.splash_scenes import play, scene
+from tests.splash_views import LOOK, view_at
 from tests.weather_pictures import stage
 from weather_ecs.frame import RippleData, ViewData
 from weather_ecs.gpu import splash_texture as texture

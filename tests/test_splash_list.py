@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.splash_capture import LOOKS, PICTURE, SplashCapture, impacts
-from tests.test_splash_picture import scene
+from tests.splash_scenes import scene
 from tests.views import look_from, perspective
 from tests.weather_pictures import stage
 from weather_ecs.frame import DropLook, FrameData, SplashLook, ViewData

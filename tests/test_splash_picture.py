@@ -2,32 +2,17 @@
 
 from __future__ import annotations
 
-import math
-
 import esper
 import moderngl
 import numpy as np
 import pytest
 
-from tests.boxes import CORNERS, TRIANGLES, placed
-from tests.weather_pictures import Stage, stage
-from weather_ecs.components import Occluder, RainArea, SplashEmitter, Wind
+from tests.splash_scenes import play, scene
+from tests.weather_pictures import stage
+from weather_ecs.components import RainArea, SplashEmitter
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.gl import GL
-
-NORTH = math.pi / 2  # the heading of -z
-
-
-def scene(splashes: bool = True, roof: bool = False, **looks: float) -> None:
-    """Rain on level ground; a roof over the half that is in front of x = 0."""
-    esper.create_entity(RainArea((0, 0), (60, 40), 60.0))
-    esper.create_entity(Wind((1.0, 0.0), 0.0))
-    esper.create_entity(Occluder(CORNERS, TRIANGLES, placed((0, -1, 0), (50, 1, 50))))
-    if roof:
-        esper.create_entity(Occluder(CORNERS, TRIANGLES, placed((0, 3, -8), (6, 0.1, 6))))
-    if splashes:
-        esper.create_entity(SplashEmitter(**looks))
 
 
 def difference(
@@ -42,10 +27,6 @@ def difference(
             if splashes:
                 figures = {n: getattr(it.weather.stats, n) for n in ("splashes", "impacts")}
     return np.abs(pictures[0] - pictures[1]).max(axis=2), figures
-
-
-def play(it: Stage, frames: int) -> np.ndarray:
-    return it.play(frames, position=(0.0, 1.5, 0.0), heading=NORTH, pitch=-0.25)
 
 
 def test_every_impact_splashes_and_both_backends_show_the_same(ctx: moderngl.Context):
