@@ -16,12 +16,13 @@ from hypothesis import strategies as st
 from tests.boxes import CORNERS, TRIANGLES, box, placed
 from tests.heightmap_stage import REACH, Maps
 from tests.splash_capture import SplashCapture, impacts
-from tests.test_splash import LOOK, view_at
+from tests.splash_views import LOOK, view_at
 from tests.test_splash_companions import AGE, FEW, MANY, crowns
 from tests.weather_pictures import stage
 from weather_ecs.components import Occluder, RainArea, SplashEmitter, Wind
 from weather_ecs.frame import OccluderData
 from weather_ecs.gpu.impact_source import ImpactReader
+from weather_ecs.gpu.occluder_motion import OccluderMotion
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.physics import ride
 
@@ -227,3 +228,23 @@ def test_the_smaller_ones_ride_on_what_is_at_their_place(ctx: moderngl.Context):
         assert 12 <= own.sum() < 24
     finally:
         made.release()
+
+
+def test_many_are_seen_as_one_is() -> None:
+    rng = np.random.default_rng(3)
+    speeds = np.where(rng.random((40, 1)) < 0.3, 0.0, rng.normal(0.0, 2.0, (40, 3)))
+
+    def at(k: int, time: float) -> OccluderData:
+        return box(k, turned(time * speeds[k, 1], speeds[k, 0] * time), True)
+
+    together = OccluderMotion()
+    for time in (0.0, 0.03, 0.03, 0.05):
+        everything = [at(k, time) for k in range(40)]
+        together.follow(everything, time)
+    for k in range(40):
+        alone = OccluderMotion()
+        for time in (0.0, 0.03, 0.03, 0.05):
+            one = at(k, time)
+            alone.follow([one], time)
+        assert together.of(everything[k]) == pytest.approx(alone.of(one), abs=1e-9)
+        assert alone.moves == bool(speeds[k].any())
