@@ -104,6 +104,9 @@ def test_what_has_come_to_rest_is_seen_to_rest(maps: Maps) -> None:
     capture(maps, 1.0, box(2, turned(0.2), True))
     capture(maps, 0.5, box(2, turned(0.3), True))
     assert not motion(maps).any()
+    # From there on it goes on.
+    capture(maps, 0.55, box(2, turned(0.34), True))
+    assert motion(maps).any()
 
 
 def test_those_that_share_a_mesh_have_speeds_of_their_own(maps: Maps) -> None:

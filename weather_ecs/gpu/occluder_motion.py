@@ -36,7 +36,8 @@ class OccluderMotion:
 
     def follow(self, occluders: Iterable[OccluderData], time: float) -> None:
         """Look at where they are at `time`, s."""
-        movers = self._movers
+        # A clock that was set back, by a snapshot, knows nothing of what was before.
+        movers = self._movers if time >= self._time else {}
         self._movers = {}
         self._time = time
         changed: list[tuple[_Mover, OccluderData]] = []
