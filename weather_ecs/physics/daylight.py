@@ -41,6 +41,7 @@ HIGH = math.degrees(math.asin(0.8))  # the sun's altitude that it is for
 NOON = np.array([1.0, 0.95, 0.86])  # the sun's colour there
 SKY_GAIN = 3.7
 COVER_GAIN = 1.5  # of a covered sky
+NIGHT_GAIN = 2.0  # of airglow and stars: a night with a moon is brighter than one without
 HAZE_SHARE = 0.33  # of SKY_GAIN, for the glow round the sun, which a picture cannot hold
 NIGHT_LUX = 6.5e-4  # of airglow and stars on level ground, sun and moon down (Janiczek, -18)
 NIGHT_COLOR = np.array([0.80, 1.02, 1.35])
@@ -223,7 +224,7 @@ def scene(
     grey = 0.5 * spread + 0.5 * float(spread @ LUMINANCE)
     overhead = COVER_GAIN * shown * white * grey * (9.0 / 7.0)
     sun_scale, moon_scale = factor * direct, factor * direct * moonlight
-    night = factor * stars
+    night = NIGHT_GAIN * shown * white * stars
     zenith = sun_scale * sun.zenith + moon_scale * moon.zenith + 0.9 * overhead + night
     horizon = sun_scale * sun.horizon + moon_scale * moon.horizon + 0.45 * overhead + 1.6 * night
     sun_color, moon_color = (shown * direct * white * part for part in (suns, moons))

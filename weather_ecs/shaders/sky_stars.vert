@@ -22,7 +22,7 @@ void main()
     float twinkle = 1.0 + min(0.04 * mass, 0.3) * sin(star_law.z * (7.0 + fract(phase) * 6.0) + phase);
     // What an eye sees of a star goes by a power of its light, and a bright one looks larger.
     float seen = star_law.y * twinkle * sky_left(d) * pow(10.0, 0.17 * min(margin, 8.0));
-    float size = clamp(0.9 + 0.42 * seen, 1.4, 4.5) * sky_law.y;
+    float size = clamp(1.1 + 0.46 * seen, 1.7, 4.7) * sky_law.y;
     gl_PointSize = size;
-    vs_light = in_tint * min(0.48 * seen * 2.0 * sky_law.y * sky_law.y / (size * size) + 0.04 * seen, 1.0);
+    vs_light = in_tint * min(0.66 * seen * 2.0 * sky_law.y * sky_law.y / (size * size) + 0.04 * seen, 1.0);
 }
