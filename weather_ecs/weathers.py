@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from weather_ecs.cloud_files import CLOUD_MODELS
 from weather_ecs.components._base import number
 from weather_ecs.errors import InvalidValueError
-from weather_ecs.physics.oktas import FOOTPRINTS, count_for
+from weather_ecs.physics.oktas import count_for, shown_footprint
 from weather_ecs.systems import transition
 from weather_ecs.systems.course import LONGEST_NAME, Conditions, checked
 from weather_ecs.systems.state import WeatherState
@@ -52,7 +52,7 @@ class CloudBank:
     def bank(self) -> transition.Bank:
         """The same as the layer has it: how many clouds stand in how large a square."""
         weights = self.weights or (1.0,) * len(self.models)
-        shares = [(w, FOOTPRINTS[m]) for w, m in zip(weights, self.models, strict=True)]
+        shares = [(w, shown_footprint(m)) for w, m in zip(weights, self.models, strict=True)]
         footprint = sum(w * area for w, area in shares) / sum(weights)
         side = next(side for top, side in SIDES if self.base <= top)
         side = WIDE_SIDE if footprint > WIDE else side
