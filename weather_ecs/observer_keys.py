@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
 from weakref import WeakKeyDictionary, finalize
 
 from weather_ecs.components import Observer
+from weather_ecs.errors import InvalidValueError
 
 IMPLICIT = 0  # the observer of a game that names none
 
@@ -37,3 +39,9 @@ class ObserverKeys:
 
     def __len__(self) -> int:
         return len(self._keys)
+
+
+def check_observer(observer: Any) -> None:
+    """Raises InvalidValueError for anything but an observer or None."""
+    if observer is not None and not isinstance(observer, Observer):
+        raise InvalidValueError("observer", observer, "an Observer component or None")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from weather_ecs.components import Observer, RippleSurface
 from weather_ecs.contents import Contents
 from weather_ecs.errors import ContextError, InvalidValueError
-from weather_ecs.observer_keys import ObserverKeys
+from weather_ecs.observer_keys import IMPLICIT, ObserverKeys, check_observer
 from weather_ecs.physics.camera import Camera, camera_from
 from weather_ecs.physics.rain_field import RainField
 from weather_ecs.prepared_draw import PreparedDraw
@@ -145,7 +145,7 @@ class Weather(Contents):
         None where nothing was drawn yet, and for a surface that is not in the weather's world.
         """
         self._check_open()
-        _check_observer(observer)
+        check_observer(observer)
         data = self._extract.ripples.find(surface)
         if self._renderer is None or data is None:
             return None
@@ -249,8 +249,8 @@ class Weather(Contents):
         For tools that put the weather back; what observers were shown stays.
         """
         if self._renderer is not None:
-            self._view.forget(self._keys.key(None))
-            self._renderer.forget(self._keys.key(None))
+            self._view.forget(IMPLICIT)
+            self._renderer.forget(IMPLICIT)
 
     def _make_renderer(self) -> Renderer:
         from weather_ecs.gpu.context import obtain
@@ -295,11 +295,6 @@ class Weather(Contents):
     def _check_drawing(self, observer: Observer | None) -> None:
         """Raises what is in the way of drawing for an observer."""
         self._check_open()
-        _check_observer(observer)
+        check_observer(observer)
         if self._window is None and self._context is None:
             raise ContextError("this weather was made with neither window nor context to draw to")
-
-
-def _check_observer(observer: Any) -> None:
-    if observer is not None and not isinstance(observer, Observer):
-        raise InvalidValueError("observer", observer, "an Observer component or None")
