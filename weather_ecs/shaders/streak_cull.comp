@@ -54,19 +54,25 @@ bool is_small(uint id)
 bool in_view(uint id, out float deep)
 {
     uint k = id * 6u;
-    vec3 v = vec3(drops[k + 3u], drops[k + 4u], drops[k + 5u]);
+    vec3 v = vec3(0.0, drops[k + 4u], 0.0);
     deep = 0.0;
     if (has_landed(v)) return false;
     vec3 p = vec3(drops[k], drops[k + 1u], drops[k + 2u]);
-    // As in streak.vert, and a little wider: far streaks are drawn longer than this.
     vec4 head = view_projection * vec4(p, 1.0);
+    deep = head.w;
+#ifdef SNOW
+    // As in flake.vert: its way during the exposure is looked at there.
+    return head.w > 0.15 && all(lessThan(abs(head.xy), head.ww * 1.05 + 0.05));
+#else
+    v.xz = vec2(drops[k + 3u], drops[k + 5u]);
+    // As in streak.vert, and a little wider: far streaks are drawn longer than this.
     vec4 tail = head
         - view_projection * vec4((v - camera_velocity.xyz) * camera_velocity.w, 0.0);
-    deep = head.w;
     if (min(head.w, tail.w) < 0.1) return false;
     vec2 h = head.xy / head.w;
     vec2 t = tail.xy / tail.w;
     return all(lessThan(min(h, t), vec2(1.03))) && all(greaterThan(max(h, t), vec2(-1.03)));
+#endif
 }
 
 void main()
