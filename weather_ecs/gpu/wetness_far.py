@@ -33,6 +33,7 @@ class FarField:
         self.middle = (0.0, 0.0)  # m, (x, z)
         self.dry = True
         self._made: tuple[int, int] | None = None  # ground, tick
+        self._points: NDArray[np.float64] = np.zeros((0, 2))  # m, (x, z) of the texels
 
     def is_due(self, view: ViewData) -> bool:
         """Whether there is something to enter, or the last of it to take away."""
@@ -52,15 +53,15 @@ class FarField:
             return
         if self._made is None or away >= 0.25 * HALF:
             self.middle = round(x / TEXEL) * TEXEL, round(z / TEXEL) * TEXEL
-        across = (np.arange(TEXELS) + 0.5) * TEXEL - HALF
-        grid = np.meshgrid(self.middle[0] + across, self.middle[1] + across)
-        points = np.stack(grid, axis=-1).reshape(-1, 2)
-        air = view.frame.air
+            across = (np.arange(TEXELS) + 0.5) * TEXEL - HALF
+            grid = np.meshgrid(self.middle[0] + across, self.middle[1] + across)
+            self._points = np.stack(grid, axis=-1).reshape(-1, 2)
+        points, air = self._points, view.frame.air
         water = _field(view, wet, points, 1.0 - air.snow_share, _water_law)
         snow = np.zeros_like(water)
-        if view.frame.snow_ground is not None:
-            collects = air.snow_share * view.frame.flakes.settling
-            snow = _field(view, view.frame.snow_ground, points, collects, SnowLaw)
+        lying, collects = view.frame.snow_ground, air.snow_share * view.frame.flakes.settling
+        if lying is not None and (lying.levels or collects > 0.0):
+            snow = _field(view, lying, points, collects, SnowLaw)
         both = np.stack([water, snow], axis=-1)
         self.texture.write(both.astype(np.float32).tobytes())
         self._made = (wet.number, wet.ticks)

@@ -12,6 +12,7 @@ from weather_ecs.physics.heightfield import pieces
 
 # Places that are looked at: share of the reach, and angle from the heading.
 _PLACES = ((0.15, 0.0), (0.4, -0.5), (0.4, 0.5), (0.65, 0.0), (0.8, -0.5), (0.8, 0.5))
+_FAR, _TURN = np.array(_PLACES).T
 
 
 class SceneFloor:
@@ -35,9 +36,8 @@ class SceneFloor:
             self._still, self._boxes = still, self._boxed(still)
         if not len(self._boxes):
             return None
-        far, turn = np.array(_PLACES).T
-        x = position[0] + reach * far * np.cos(heading + turn)
-        z = position[2] - reach * far * np.sin(heading + turn)
+        x = position[0] + reach * _FAR * np.cos(heading + _TURN)
+        z = position[2] - reach * _FAR * np.sin(heading + _TURN)
         x0, x1, z0, z1, top = self._boxes.T[:, :, None]
         within = (x0 <= x) & (x <= x1) & (z0 <= z) & (z <= z1)
         tops = np.where(within, top, -math.inf).max(axis=0)
