@@ -25,7 +25,8 @@ class StateGuard:
     Inside: the host's framebuffer and viewport bound; scissor, blend, depth test, cull, stencil and
     the like off; depth writes and colours on; LEQUAL; alpha blending chosen; no vertex array, no
     samplers. Textures of the units 0 to 7 and uniform and storage bindings are as the host left
-    them. Nested use is harmless, and sets no baseline.
+    them; of the textures, those in 2D and arrays of them are put back, which passes sample. Nested
+    use is harmless, and sets no baseline.
 
     Raises ContextError where the context of `ctx` is not current.
     """

@@ -64,15 +64,20 @@ def _lights(sky: SkyLight) -> tuple[NDArray, NDArray]:
     return drop_light(sky), encode(veil_light(sky))
 
 
-_latest: tuple[ViewData | None, list[float]] = (None, [])
+# The matrices that were multiplied last, and their product: several passes need a view's.
+_latest: tuple[NDArray | None, NDArray | None, list[float]] = (None, None, [])
 
 
 def clip_columns(view: ViewData) -> list[float]:
-    """The matrix from the world to clip space, column by column; several passes need a view's."""
+    """The matrix from the world to clip space, 16 numbers column by column."""
     global _latest
-    if _latest[0] is not view:
-        _latest = view, product_columns(view.projection.tolist(), view.view.tolist())
-    return _latest[1]
+    p, v = view.projection, view.view
+    if p is _latest[0] and v is _latest[1]:
+        return _latest[2]
+    found = product_columns(p.tolist(), v.tolist())
+    if not (p.flags.writeable or v.flags.writeable):
+        _latest = p, v, found
+    return found
 
 
 def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int, int]) -> None:
