@@ -18,6 +18,7 @@ from .programs import Look, Variants, compile_program, release_all, set_uniforms
 COARSE_FROM = 32.0  # m, from where chunks have few triangles
 DRIES = 1800.0  # s after the last rain until the ground is certainly dry
 DETAIL_REACH = 26.0  # m, up to which the ground has its fine grain
+FAR = 4  # number of the first look beyond that
 UNITS = {"shadow_map": 0, "detail_map": 1, "meadow_map": 2, "sky_map": 3}
 
 
@@ -46,7 +47,8 @@ class Ground:
             near = short if "NEAR" in defines else content
             return program, [ctx.vertex_array(program, near, self._indices)]
 
-        kinds = [(), *[("NEAR", *live, *wet) for live in ((), ("LIVE",)) for wet in ((), ("WET",))]]
+        kinds = [("NEAR", *live, *wet) for live in ((), ("LIVE",)) for wet in ((), ("WET",))]
+        kinds += [(), ("WILD",)]
         self.looks = tuple([Variants(partial(look, *kind)) for kind in kinds])
         self._chunks, self._coarse = mesh.chunks, mesh.coarse
         self._skirts, self._beside = mesh.skirts, mesh.beside
@@ -59,6 +61,10 @@ class Ground:
         inside = (mesh.low[:, [0, 2]] > paint.LOW + paint.MARGIN).all(axis=1)
         inside &= (mesh.high[:, [0, 2]] < paint.HIGH - paint.MARGIN).all(axis=1)
         self._painted = np.asarray(inside, bool)
+        # Where the painted map does not reach at all.
+        ends = (first + count for first, count in mesh.chunks.tolist())
+        parts = zip(mesh.chunks[:, 0].tolist(), ends, strict=True)
+        self._wild = np.array([not mesh.painted[mesh.indices[a:b]].any() for a, b in parts])
         table = place.meadow
         self.map = ctx.texture((table.shape[1], table.shape[0]), 4, table.tobytes())
         self.map.build_mipmaps()
@@ -107,7 +113,7 @@ class Ground:
         away = all_away[seen]
         near = self._painted[seen] & (away < DETAIL_REACH)
         wet, live = self._wet_chunks(environment)[seen], self._live_chunks(spheres, sun)[seen]
-        kind: NDArray = np.where(near, 1 + wet + 2 * live, 0)
+        kind: NDArray = np.where(near, wet + 2 * live, FAR + self._wild[seen])
         fine = away < COARSE_FROM
         # A coarse one does not meet one in full: there it hangs down at its rim.
         meets = self._hangs[seen] | (all_away[self._beside[seen]] < COARSE_FROM).any(axis=1)
@@ -120,8 +126,8 @@ class Ground:
         sharp = True
         self._sharp.use(UNITS["meadow_map"])
         self._grain.use(UNITS["detail_map"])
-        for k in np.lexsort((nearest, kind[starts] == 0)).tolist():
-            if sharp and kind[starts[k]] == 0:
+        for k in np.lexsort((nearest, kind[starts] >= FAR)).tolist():
+            if sharp and kind[starts[k]] >= FAR:
                 self._soft.use(UNITS["meadow_map"])
                 sharp = False
             array = self.looks[kind[starts[k]]].arrays[0]

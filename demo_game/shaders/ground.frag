@@ -3,7 +3,9 @@
 #include "tone.glsl"
 #include "fog_light.glsl"
 
+#ifndef WILD                // where the painted map does not reach
 uniform sampler2D meadow_map;
+#endif
 #ifdef LIVE                // shadows move here
 uniform sampler2DShadow shadow_map;
 #endif
@@ -34,6 +36,7 @@ flat in float v_ragged;
 #endif
 #else
 in vec4 v_wild;
+flat in vec3 v_horizon;
 #endif
 
 out vec4 out_color;
@@ -45,6 +48,10 @@ void main() {
 #else
     vec4 air = haze_at(v_haze);
 #endif
+#ifdef WILD
+    vec3 albedo = v_wild.rgb;
+    float lit = 1.0;
+#else
     vec4 painted = texture(meadow_map, v_maps.xy);
     vec3 albedo = painted.rgb * painted.rgb;
     float lit = painted.a;
@@ -54,6 +61,7 @@ void main() {
 #ifndef NEAR
     albedo = mix(v_wild.rgb, albedo, v_wild.a);
     lit = mix(1.0, lit, v_wild.a);
+#endif
 #endif
     float bare = clamp((albedo.r - albedo.g) * 20.0 - 0.3, 0.0, 1.0);  // earth is redder than grass
     float wet = v_place.w;
@@ -101,7 +109,7 @@ void main() {
 #else
 #ifndef NEAR
     color *= 1.0 - wet * (0.28 + 0.20 * bare);
-    color += horizon_color.rgb * (wet * (0.05 + 0.14 * bare));
+    color += v_horizon * (wet * (0.05 + 0.14 * bare));
 #endif
     out_color = vec4(tone(color * air.a + air.rgb), 1.0);
 #endif

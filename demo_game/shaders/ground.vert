@@ -37,6 +37,7 @@ flat out float v_ragged;  // half a metre in the map of the water
 #endif
 #else
 out vec4 v_wild;
+flat out vec3 v_horizon;
 #endif
 
 void main() {
@@ -77,6 +78,7 @@ void main() {
 #endif
     v_gust = 0.45 * grass_lean(in_position.xz) - 0.12;
 #else
+    v_horizon = horizon_color.rgb;
     v_wild = vec4(in_color.rgb * in_color.rgb, in_color.a);
 #endif
     gl_Position = view_projection * vec4(in_position, 1.0);
