@@ -33,7 +33,7 @@ def test_precipitation_has_the_papers_table_beside_ours(tmp_path: Path) -> None:
     assert ratios["times_the_papers"] == pytest.approx(ratios["drops_at_56fps"] / 1000.0)
     compared = {"snow_over_rain", "snow_over_rain_feedback", "turbulence_share", "fog_ms"}
     assert compared <= set(ratios)
-    assert rows["nothing"]["drops"] == 0
+    assert rows["fog"]["drops"] == rows["fog_twice"]["drops"] == 0
     for plain, other in (("rain", "snow"), ("rain_feedback", "snow_feedback")):
         assert rows[other]["drops"] == rows[plain]["drops"] == 5000
         assert rows[other]["rounds"] == rows[plain]["rounds"] > rows["light"]["rounds"]
