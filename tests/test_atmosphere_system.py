@@ -77,6 +77,17 @@ def test_it_takes_the_place_of_the_sun_and_gives_it_back() -> None:
     weather.close()
 
 
+def test_a_night_with_a_full_moon_is_brighter_than_one_without() -> None:
+    """In 2025 the moon was full on 14 March, and new on the 29th."""
+    weather, air = made()
+    lights = []
+    for day in ("2025-03-14", "2025-03-29"):
+        air.time = f"{day}T00:00:00Z"
+        lights.append(weather.sample((0, 0, 0)).light)
+    full, none = lights
+    assert 1.3 * none < full < 10.0 * none
+
+
 def test_light_of_day_twilight_and_night() -> None:
     weather, air = made()
     lights = []
