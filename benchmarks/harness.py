@@ -110,11 +110,13 @@ def measure(
     rounds: int = 15,
     warm_up: int = 3,
     sample_seconds: float = 0.05,
+    alike: bool = False,
 ) -> Timings:
     """Run the cases in turns for `rounds` rounds after `warm_up` untimed frames of each.
 
     `finish` waits for the GPU (`ctx.finish`) and ends every sample. A sample holds as many frames
-    as the case does in `sample_seconds`, so that the clock and the wait weigh nothing.
+    as the case does in `sample_seconds`, so that the clock and the wait weigh nothing. `alike`: as
+    many for every case, the quickest one's, so that the wait weighs the same on all.
     """
     names = [case.name for case in cases]
     if len(set(names)) != len(names):
@@ -139,6 +141,9 @@ def measure(
         # The quickest warm-up frame: the first ones compile and allocate.
         fastest = min(sample(case, 1) for _ in range(warm_up))
         frames[case.name] = max(1, min(1000, round(sample_seconds / max(fastest, 1e-7))))
+
+    if alike:
+        frames = dict.fromkeys(frames, max(frames.values()))
 
     seconds: dict[str, list[float]] = {name: [] for name in names}
     collecting = gc.isenabled()

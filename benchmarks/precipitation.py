@@ -154,7 +154,7 @@ def cost_rows(
     for pair in pairs:
         models = {name: make() for name, make in pair.items()}
         plain, other = models
-        timings, found = in_turns(stage, models, OFTEN * rounds)
+        timings, found = in_turns(stage, models, OFTEN * rounds, alike=True)
         rows += found
         per_particle = models[plain].drops / max(models[other].drops, 1)
         ratio.append(timings.ratio(other, plain) * per_particle)
@@ -168,7 +168,7 @@ def cost_rows(
 
 
 def in_turns(
-    stage: Stage, models: dict[str, OurRain], rounds: int
+    stage: Stage, models: dict[str, OurRain], rounds: int, alike: bool = False
 ) -> tuple[Timings, list[dict[str, Any]]]:
     """Measure models in turns; gives them back."""
     ctx: moderngl.Context = stage.ctx
@@ -178,7 +178,7 @@ def in_turns(
             Case(name, frame_of(stage, model), {"drops": model.drops, "size": size})
             for name, model in models.items()
         ]
-        timings = measure(cases, finish=ctx.finish, rounds=rounds)
+        timings = measure(cases, finish=ctx.finish, rounds=rounds, alike=alike)
         return timings, [timings.row(case) for case in cases]
     finally:
         for model in models.values():

@@ -81,6 +81,9 @@ def test_short_frames_share_a_sample(clock: Clock) -> None:
     timings = measure(cases, rounds=3, sample_seconds=0.05)
     assert timings.frames == {"short": 50, "long": 1}
     assert timings.ms("short") == pytest.approx(1.0)
+    timings = measure(cases, rounds=3, sample_seconds=0.05, alike=True)
+    assert timings.frames == {"short": 50, "long": 50}
+    assert timings.ms("long") == pytest.approx(200.0)
 
 
 def test_finish_is_inside_the_sample(clock: Clock) -> None:
