@@ -28,13 +28,14 @@ class Stage:
         self.entity = esper.create_entity(self.air)
 
     def picture(
-        self, heading: float, pitch: float, field: float = 60.0, depth: float = 1.0
-    ) -> NDArray[np.float64]:
-        """(height, width, 3), 0 to 1, lowest row first."""
+        self, heading: float, pitch: float, field: float = 60.0, depth: float = 1.0,
+        height: float = 2.0,
+    ) -> NDArray[np.float64]:  # fmt: skip
+        """(height, width, 3), 0 to 1, lowest row first; height: of the eye, m."""
         esper.process(0.0)
         self.target.use()
         self.target.clear(0.25, 0.5, 0.75, 1.0, depth=depth)
-        self.camera = look_from((0, 2, 0), heading, pitch), perspective(field)
+        self.camera = look_from((0, height, 0), heading, pitch), perspective(field)
         self.weather.draw(*self.camera)
         assert self.ctx.error == "GL_NO_ERROR"
         raw = np.frombuffer(self.target.read(components=3), np.uint8)

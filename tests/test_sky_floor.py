@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import esper
+import moderngl
 import numpy as np
 import pytest
 
+from tests.sky_stage import Stage
+from tests.worlds import fresh_world
+from weather_ecs.components import Cloud
 from weather_ecs.physics import sky_floor, sky_map
 from weather_ecs.physics.cloud_light import CLEAN, CLEAN_HEIGHT, surround
 
@@ -68,3 +73,53 @@ def test_light_that_is_bent_in_the_picture_is_bent_back() -> None:
     light = np.linspace(0.0, 2.0, 50)
     shown = sky_map.shown(light) ** 2.2
     assert sky_floor.unbent(shown[shown < 0.96]) == pytest.approx(light[shown < 0.96], abs=1e-6)
+
+
+def below(stage: Stage, share: float, tops: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(drawn, wanted) of what is seen under the horizon from 5 km, rows of pixels."""
+    drawn = stage.picture(0.4, -0.3, 60.0, height=5000.0)
+    ways = stage.directions()
+    data = stage.weather._frame().atmosphere
+    assert data is not None
+    level = ways * (1.0, 0.0, 1.0)
+    level /= np.linalg.norm(level, axis=-1, keepdims=True)
+    depth = sky_floor.depth_below(5000.0)
+    light = sky_floor.floor_light(
+        sky_map.radiance(data, level), np.asarray(data.ground_light), tops, share, depth,
+        ways[..., 1],
+    )  # fmt: skip
+    under = ways[..., 1] < -0.01
+    return drawn[under], np.clip(sky_map.shown(light), 0.0, 1.0)[under]
+
+
+def test_what_is_drawn_under_the_horizon_is_the_oracles(ctx: moderngl.Context) -> None:
+    with fresh_world():
+        stage = Stage(ctx)
+        try:
+            stage.air.time = "2025-06-21T15:00:00Z"
+            drawn, wanted = below(stage, 0.0, np.zeros(3))
+            assert np.abs(drawn - wanted).mean() < 0.004
+            assert np.quantile(np.abs(drawn - wanted), 0.99) < 0.02
+            assert wanted.std() > 0.02  # there is something to compare
+        finally:
+            stage.release()
+
+
+def test_over_a_deck_the_far_end_is_bright(ctx: moderngl.Context) -> None:
+    """Clouds behind the camera: what is seen is none of them."""
+    with fresh_world():
+        stage = Stage(ctx)
+        try:
+            stage.air.time = "2025-06-21T15:00:00Z"
+            bare, _ = below(stage, 0.0, np.zeros(3))
+            for k in range(14):
+                place = (-9000.0 + 500.0 * k, 1000.0, 3000.0)
+                esper.create_entity(Cloud("nimbostratus", place, drift=0.0, number=k % 3))
+            for _ in range(4):
+                esper.process(0.05)
+            stage.weather._renderer.clouds.draws = lambda view: False  # type: ignore[union-attr]
+            over, _ = below(stage, 0.0, np.zeros(3))
+            assert over.mean() > 1.25 * bare.mean()
+            assert np.ptp(over.mean(axis=1)) < np.ptp(bare.mean(axis=1))
+        finally:
+            stage.release()
