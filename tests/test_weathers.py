@@ -15,7 +15,14 @@ from weather_ecs import Weather, presets
 from weather_ecs.components import Air, RainArea, SkyLayer, Wind
 from weather_ecs.errors import InvalidValueError
 from weather_ecs.physics.glide import glide, glide_rate
-from weather_ecs.physics.oktas import CLOSED, FOOTPRINTS, SLANT, count_for, share_of, shown_footprint
+from weather_ecs.physics.oktas import (
+    CLOSED,
+    FOOTPRINTS,
+    SLANT,
+    count_for,
+    share_of,
+    shown_footprint,
+)
 from weather_ecs.systems.cloud_place import QUANTUM
 from weather_ecs.weathers import WEATHERS, CloudBank, WholeWeather
 

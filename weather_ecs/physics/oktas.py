@@ -19,8 +19,8 @@ FOOTPRINTS = {
     "cumulonimbus": 61.2,
     "fractostratus": 0.53,
 }
-# Times as much of the dome as of the ground: at a slant one sees their sides as well. From the share
-# of the sky above 5 degrees that pictures all round show covered, for 1.5 to 6 oktas of them.
+# Times as much of the dome as of the ground: at a slant one sees their sides as well. From the
+# share of the sky above 5 degrees that pictures all round show covered, for 1.5 to 6 oktas of them.
 SLANT = {"cumulus": 2.1, "altocumulus": 1.5, "cirrus": 1.8}
 CLOSED = 0.985  # share from which the sky counts as closed, 8 oktas
 
