@@ -32,6 +32,7 @@ in float v_gust;
 in vec3 v_sky;
 #ifdef WATER
 flat in float v_ragged;
+in float v_rise;
 #endif
 #endif
 #else
@@ -89,7 +90,7 @@ void main() {
     // Read a little aside by the grain, so that where it is dry under a roof has a natural shore.
     float water = weather_water_at(v_maps.zw + detail.gb * v_ragged, p.y, v_place.w);
     wet = weather_damp(water) * (1.0 - snowy);
-    float puddle = weather_pooled(water, 5.0 - 12.5 * detail.a);
+    float puddle = weather_pooled(water, 5.0 - 12.5 * detail.a + v_rise);
 #else
     float puddle = clamp(detail.a * 8.5 + 0.35, 0.0, 1.0) * wet;
 #endif
