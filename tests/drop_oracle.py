@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import moderngl
 import numpy as np
@@ -12,8 +13,9 @@ from weather_ecs.gpu.air_block import flow_of
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.heightmap import Footprint
 from weather_ecs.gpu.rain_blocks import SHELTER
-from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass
+from weather_ecs.gpu.rain_pass import MOTION_UNIT, SHELTER_UNIT, RainPass
 from weather_ecs.physics import rain_step
+from weather_ecs.physics.ride import motion_bytes
 from weather_ecs.physics.shelter import ShelterMap
 from weather_ecs.physics.snow import SnowLaw
 from weather_ecs.physics.snow_step import flakes_of
@@ -61,7 +63,18 @@ def oracle(views: Iterable[ViewData], shelter: ShelterMap | None = None) -> dict
     return {k: np.hstack([d["p"][: d["alive"]], d["v"][: d["alive"]]]) for k, d in sets.items()}
 
 
-def slab_map(ctx: moderngl.Context) -> tuple[moderngl.Texture, BlockBuffer, ShelterMap]:
+class SlabTextures(NamedTuple):
+    """What shaders read of a slab."""
+
+    depth: moderngl.Texture
+    motion: moderngl.Texture
+
+    def release(self) -> None:
+        for texture in self:
+            texture.release()
+
+
+def slab_map(ctx: moderngl.Context) -> tuple[SlabTextures, BlockBuffer, ShelterMap]:
     """Ground that rises and a roof over a part of it, seen along a slanted fall."""
     size, half, slope = 128, 90.0, (0.4, 0.2)
     place = Footprint((0.0, 0.0), half, slope, -20.0, 40.0)
@@ -74,6 +87,10 @@ def slab_map(ctx: moderngl.Context) -> tuple[moderngl.Texture, BlockBuffer, Shel
     texture.compare_func = ""
     texture.filter = moderngl.NEAREST, moderngl.NEAREST
     texture.use(SHELTER_UNIT)
+    at_rest = np.broadcast_to(motion_bytes(np.zeros(3)), (size, size, 3)).astype(np.uint8)
+    motion = ctx.texture((size, size), 3, at_rest.tobytes(), alignment=1)
+    motion.filter = moderngl.NEAREST, moderngl.NEAREST
+    motion.use(MOTION_UNIT)
     block = BlockBuffer(ctx, SHELTER)
     block["shelter_matrix"] = place.matrix()
     block.data["shelter_size"] = (size, 60.0, 2 * half / size, 0.0)
@@ -83,4 +100,4 @@ def slab_map(ctx: moderngl.Context) -> tuple[moderngl.Texture, BlockBuffer, Shel
     # The depth buffer may be stored in 24 bits; the oracle gets what the shader will read.
     stored = np.frombuffer(texture.read(), np.float32).reshape(size, size)
     known = ShelterMap(stored, place.matrix().astype(np.float32), 60.0, 2 * half / size, slope)
-    return texture, block, known
+    return SlabTextures(texture, motion), block, known

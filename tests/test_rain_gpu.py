@@ -155,7 +155,7 @@ def test_a_pause_moves_nothing(ctx: moderngl.Context) -> None:
 
 @pytest.mark.parametrize("backend", ["compute", "feedback"])
 def test_drops_land_where_the_oracle_has_them(ctx: moderngl.Context, backend: str) -> None:
-    texture, block, shelter = slab_map(ctx)
+    textures, block, shelter = slab_map(ctx)
     rain, shaders, views = walk(ctx, backend, 60, sheltered=True)
     try:
         found, expected = states(rain), oracle(views, shelter)
@@ -180,13 +180,13 @@ def test_drops_land_where_the_oracle_has_them(ctx: moderngl.Context, backend: st
         rain.release()
         shaders.release()
         block.release()
-        texture.release()
+        textures.release()
 
 
 def test_impacts_beyond_the_room_of_a_frame_are_counted_and_not_written(
     ctx: moderngl.Context,
 ) -> None:
-    texture, block, _ = slab_map(ctx)
+    textures, block, _ = slab_map(ctx)
     rain, shaders, _ = walk(ctx, "compute", 30, sheltered=True, impact_capacity=4)
     try:
         impacts = rain.impacts()
@@ -199,4 +199,4 @@ def test_impacts_beyond_the_room_of_a_frame_are_counted_and_not_written(
         rain.release()
         shaders.release()
         block.release()
-        texture.release()
+        textures.release()

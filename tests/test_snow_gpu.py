@@ -92,7 +92,7 @@ def test_flakes_are_where_the_oracle_has_them(
 @pytest.mark.usefixtures("target")
 def test_flakes_land_silently(ctx: moderngl.Context, backend: str) -> None:
     views = views_of(50, COLD, SnowLook())
-    texture, block, shelter = slab_map(ctx)
+    textures, block, shelter = slab_map(ctx)
     shaders = ShaderLoader(ctx)
     rain = RainPass(ctx, shaders, backend=backend, seed=SEED, impact_capacity=4096)
     try:
@@ -110,7 +110,7 @@ def test_flakes_land_silently(ctx: moderngl.Context, backend: str) -> None:
         rain.release()
         shaders.release()
         block.release()
-        texture.release()
+        textures.release()
 
 
 # In a weather
