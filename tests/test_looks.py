@@ -37,7 +37,9 @@ def other(component: Any) -> Any:
     return component
 
 
-@pytest.mark.parametrize(("look", "kind", "plain"), CASES, ids=lambda case: str(case))
+@pytest.mark.parametrize(
+    ("look", "kind", "plain"), CASES, ids=[kind.__name__ for _, kind, _ in CASES]
+)
 def test_the_oldest_says_all_of_it(look: Any, kind: type, plain: Any) -> None:
     state = WeatherState(1)
     assert look(state) == plain
