@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import moderngl
@@ -117,3 +118,65 @@ def test_runs_join_neighbours_of_one_kind_that_follow_on_each_other() -> None:
     found = list(runs(Items(kinds, begins, ends)))
     assert found == [(BILLBOARDS, 0, 9), (PICTURE, 0, 2), (BILLBOARDS, 9, 12), (BILLBOARDS, 15, 20)]
     assert list(runs(Items(kinds[:0], begins[:0], ends[:0]))) == []
+
+
+@pytest.fixture
+def crowded(stage: CloudStage) -> tuple[CloudStage, Any]:
+    """A stage with small pictures of far clouds, as there is no room for larger ones."""
+    stage.settings = replace(stage.settings, cloud_atlas=256, cloud_impostors=64)
+    data = shape(centers=THREE, billboards=8, width=3000.0, image=RAGGED)
+    places = [(300.0 * x, 2600.0, -2600.0 - 200.0 * z) for x in (-1, 0, 1) for z in range(5)]
+    frame = sky_frame(clouds(*({"position": at} for at in places)), data)
+    for dt in (0.0, 5.0):
+        stage.draw(frame, dt=dt, **UP)
+    assert stage.renderer.stats["cloud_billboards"] == 0
+    return stage, frame
+
+
+UP: dict[str, Any] = {"pitch": 0.78, "far": 20000.0}
+
+
+def test_pictures_that_are_shown_enlarged_are_painted_on_canvases_too(crowded: Any) -> None:
+    stage, frame = crowded
+    pictures = []
+    for on in (True, False):
+        stage.passes.canvases_on = on
+        pictures.append(stage.draw(frame, **UP))
+        assert bool(stage.passes._groups) is on
+    painted, straight = pictures
+    covered = stage.cover(straight) > 0.02
+    difference = np.abs(painted - straight).max(axis=2)[covered]
+    assert covered.mean() > 0.2
+    assert 0.0 < difference.mean() < 0.02 and np.percentile(difference, 99) < 0.10
+
+
+def test_what_stands_between_the_guard_and_a_picture_hides_the_picture(crowded: Any) -> None:
+    stage, frame = crowded
+    near, far = 0.1, UP["far"]
+
+    def with_hill(distance: float) -> np.ndarray:
+        ndc = (far + near) / (far - near) - 2.0 * far * near / ((far - near) * distance)
+        stage.target.clear(*stage.background, depth=1.0)
+        half = (0, 0, stage.target.width // 2, stage.target.height)
+        stage.target.clear(*stage.background, depth=0.5 * ndc + 0.5, viewport=half)
+        stage.renderer.draw(view_of(frame, **UP), stage.settings)
+        assert bool(stage.passes._groups) is stage.passes.canvases_on
+        return stage.cover(stage.picture())
+
+    open_sky = stage.cover(stage.draw(frame, **UP))
+    middle, reach = open_sky.shape[1] // 2, 12
+    (group,) = stage.passes._groups
+    # The guard is so far off in the middle of the picture.
+    ndc = group.depth[2]
+    guard = 2.0 * far * near / (far + near - ndc * (far - near))
+    assert 1000.0 < guard < 3600.0
+    hidden = with_hill(0.5 * (guard + 3660.0))
+    stage.passes.canvases_on = False
+    straight = with_hill(0.5 * (guard + 3660.0))
+    stage.passes.canvases_on = True
+    left = slice(0, middle - reach)
+    # But for corners of pictures, which are nearer than the hill.
+    assert straight[:, left].mean() < 0.25 * open_sky[:, left].mean()
+    assert np.abs(hidden - straight)[:, left].mean() < 0.12 * open_sky[:, left].mean()
+    np.testing.assert_allclose(hidden[:, middle:], open_sky[:, middle:], atol=0.02)
+    np.testing.assert_allclose(with_hill(15000.0), open_sky, atol=0.02)

@@ -1,7 +1,8 @@
-"""Canvases: textures smaller than the picture, on which near clouds are painted every draw."""
+"""Canvases: textures smaller than the picture, on which clouds are painted every draw."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import moderngl
@@ -10,24 +11,27 @@ from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.cloud_groups import Group
 from weather_ecs.gpu.cloud_hidden import below
 from weather_ecs.gpu.cloud_programs import UNITS, CloudPrograms
-from weather_ecs.gpu.cloud_sequence import Items
+from weather_ecs.gpu.cloud_sequence import PICTURES, Items
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 
+FAR = ProgramKey(vertex="cloud_far.vert", fragment="cloud_far.frag")
 SHOW = ProgramKey(vertex="cloud_canvas.vert", fragment="cloud_canvas.frag")
 UNIT = UNITS["cloud_seeds"]  # which clouds of a canvas do without
 
 
 class Canvas:
-    """One texture, premultiplied and encoded."""
+    """One texture, premultiplied and encoded, and what of the scene is beyond its guard."""
 
     def __init__(self, ctx: moderngl.Context, size: tuple[int, int]) -> None:
         self.texture = ctx.texture(size, 4)
         self.texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         self.texture.repeat_x = self.texture.repeat_y = False
-        self.framebuffer = ctx.framebuffer([self.texture])
+        self.depth = ctx.depth_renderbuffer(size)
+        self.framebuffer = ctx.framebuffer([self.texture], self.depth)
 
     def release(self) -> None:
         self.framebuffer.release()
+        self.depth.release()
         self.texture.release()
 
 
@@ -38,10 +42,13 @@ class CloudCanvases:
         self._ctx = ctx
         self._program = shaders.program(SHOW)
         self._program["cloud_canvas"] = UNIT
-        self._array = ctx.vertex_array(self._program, [])
+        self._far = shaders.program(FAR)
+        self._far["scene_depth"] = UNITS["scene_depth"]
+        self._arrays = [ctx.vertex_array(each, []) for each in (self._program, self._far)]
         self._kept: dict[tuple[int, int, int], Canvas] = {}  # by size and number
         self._size = (0, 0)
         self._shown: list[Canvas] = []
+        self._used = 0
 
     def paint(
         self, groups: list[Group], items: Items, programs: CloudPrograms,
@@ -56,24 +63,47 @@ class CloudCanvases:
         if size != self._size:
             self.clear()
             self._size = size
-        self._shown = []
-        self._ctx.enable_only(moderngl.BLEND)
-        self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-        for number, group in enumerate(groups):
-            canvas = self._canvas(group.factor, number)
-            self._shown.append(canvas)
-            canvas.framebuffer.use()
-            canvas.framebuffer.clear(0.0, 0.0, 0.0, 0.0)
-            programs.meet_from(size, canvas.texture.size, group.depth)
-            width, height = canvas.texture.size
-            framebuffer: Any = canvas.framebuffer  # moderngl's stubs know no scissor of None
-            framebuffer.scissor = 0, below(low, height), width, height
-            programs.draw(items.part(group.first, group.last))
-            framebuffer.scissor = None
+        self._used = 0
+        self._shown = [self._paint(group, items, programs, low) for group in groups]
 
-    def _canvas(self, factor: int, number: int) -> Canvas:
+    def _paint(self, group: Group, items: Items, programs: CloudPrograms, low: float) -> Canvas:
+        inner = [self._paint(each, items, programs, low) for each in group.inner]
+        canvas = self._canvas(group.factor)
+        width, height = canvas.texture.size
+        framebuffer: Any = canvas.framebuffer  # moderngl's stubs know no scissor of None
+        framebuffer.depth_mask = True
+        framebuffer.use()
+        framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
+        framebuffer.scissor = _part(group.rectangle, low, width, height)
+        if items.shows(group.first, group.last, PICTURES):
+            self._find_far(group)
+        framebuffer.depth_mask = False
+        self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+        self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
+        programs.meet_from(self._size, canvas.texture.size, group.depth)
+        first = group.first
+        for each, painted in zip(group.inner, inner, strict=True):
+            programs.draw(items.part(first, each.first))
+            self._ctx.disable(moderngl.DEPTH_TEST)
+            self._show(painted, each)
+            self._ctx.enable(moderngl.DEPTH_TEST)
+            first = each.last
+        programs.draw(items.part(first, group.last))
+        framebuffer.scissor = None
+        return canvas
+
+    def _find_far(self, group: Group) -> None:
+        """Put in the scene's depth where it is beyond the guard, of a group's pictures."""
+        self._ctx.enable_only(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "1"
+        self._far["canvas_depth"], self._far["canvas_factor"] = group.depth, group.factor
+        self._arrays[1].render(moderngl.TRIANGLES, vertices=3)
+        self._ctx.depth_func = "<="
+
+    def _canvas(self, factor: int) -> Canvas:
         width, height = (-(-side // factor) for side in self._size)
-        key = (width, height, number)
+        key = (width, height, self._used)
+        self._used += 1
         found = self._kept.get(key)
         if found is None:
             found = self._kept[key] = Canvas(self._ctx, (width, height))
@@ -81,12 +111,15 @@ class CloudCanvases:
 
     def show(self, number: int, group: Group) -> None:
         """Blending for premultiplied colours and the depth test are the caller's."""
-        self._shown[number].texture.use(UNIT)
+        self._show(self._shown[number], group)
+
+    def _show(self, canvas: Canvas, group: Group) -> None:
+        canvas.texture.use(UNIT)
         self._program["canvas_depth"] = group.depth
         self._program["canvas_rectangle"] = group.rectangle
         # Beyond the host's far plane there are clouds too.
         self._ctx.enable_direct(e.DEPTH_CLAMP)
-        self._array.render(moderngl.TRIANGLE_STRIP, vertices=4)
+        self._arrays[0].render(moderngl.TRIANGLE_STRIP, vertices=4)
         self._ctx.disable_direct(e.DEPTH_CLAMP)
 
     def clear(self) -> None:
@@ -99,4 +132,16 @@ class CloudCanvases:
     def release(self) -> None:
         """Give everything back; twice does no harm."""
         self.clear()
-        self._array.release()
+        for array in self._arrays:
+            array.release()
+
+
+def _part(
+    rectangle: tuple[float, float, float, float], low: float, width: int, height: int
+) -> tuple[int, int, int, int]:
+    """Column, row, width and height of what a rectangle holds of a canvas above a height."""
+    left, right = (0.5 * width * (1.0 + x) for x in rectangle[::2])
+    first, last = max(math.floor(left) - 1, 0), min(math.ceil(right) + 1, width)
+    bottom = max(below(max(rectangle[1], low), height) - 1, 0)
+    top = min(below(rectangle[3], height) + 2, height)
+    return first, bottom, last - first, top - bottom

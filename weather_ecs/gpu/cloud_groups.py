@@ -1,18 +1,22 @@
-"""Which clouds are painted on a canvas together, how small, and where in depth that lies.
+"""Which clouds are painted on a canvas together, and how small.
 
-A cloud so near that its images are enlarged loses nothing when it is painted with fewer pixels.
-All of one canvas lies beyond one plane, its guard: what of the scene is before it hides the canvas
-sharply, and what is beyond it meets the billboards themselves.
+A cloud that is seen enlarged loses nothing when it is painted with fewer pixels: a near one whose
+billboards' images are, a far one whose picture is. All of one canvas lies beyond one plane, its
+guard. What follows on each other in the order of drawing shares a canvas; in it, what is worth a
+smaller one is painted on that first.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.frame import ViewData
+from weather_ecs.gpu.cloud_guard import depth_of, guard_of
 from weather_ecs.gpu.cloud_images import SIZE
 from weather_ecs.gpu.cloud_scene import CloudScene
 from weather_ecs.gpu.cloud_seen import Seen
@@ -20,19 +24,23 @@ from weather_ecs.gpu.cloud_sequence import BILLBOARDS, SOFT, Items
 from weather_ecs.gpu.cloud_store import CloudStore
 
 FACTORS = (5, 4, 3, 2)  # pixels of the picture on a side of one of the canvas
-SHARP = 2.2  # pixels of the picture that a texel may take before it counts as enlarged
-HEAVY = 0.8  # of the picture's pixels: a cloud that covers more, one over the other, is
+SHARP = 2.2  # pixels of the picture that a texel of an image may take before it is enlarged
+CRISP = 1.6  # and one of a cloud's picture, which shows finer things
+HEAVY = 0.8  # of the picture's pixels: a cloud with billboards over more, one over the other, is
 LENIENT = 2.6  # times as blurred as others
-MINOR, CROWDED = 0.1, 1.3  # of a canvas' clouds, that covers so little of it: as much more blurred
+MINOR, CROWDED = 0.1, 2.0  # of what is seen of a canvas, that may be twice as blurred; at most so
+SLIGHT = 0.2  # of such, that counts however little it is
+DEAR = 2.5  # what a pixel of billboards costs over one of pictures
 OPEN = 0.5  # of the picture, that the scene may be taken to leave free
-WORTH = 0.5  # of the pixels of a canvas that are seen, that it must save to be worth it
-MOST = 4  # canvases in a draw
-NEAREST = 4.0  # m, of a guard
+SHOWN = 0.5  # what a pixel of a canvas costs when it is shown, over one of a cloud
+LEAST = 0.08  # of the picture's pixels, that a canvas must save
+MOST = 6  # canvases in a draw
 SPARE = 1.02  # of a cloud's box
 MIDST = 0.6  # of a cloud's reach: as near it counts at least
 
 Floats = NDArray[np.float64]
 Rectangle = tuple[float, float, float, float]  # left, low, right, high, -1 to 1
+Stretch = tuple[int, int, int]  # from one to before the other, and a factor
 
 
 class Group(NamedTuple):
@@ -44,6 +52,82 @@ class Group(NamedTuple):
     depth: tuple[float, float, float]  # of the guard: by x, by y, and in the middle; -1 to 1
     rectangle: Rectangle
     beyond: bool  # what stands among the clouds
+    inner: tuple[Group, ...] = ()  # of the same guard, which are shown on this one's canvas
+
+
+@dataclass(slots=True)
+class _Shown:
+    """What there is to draw, (n,) each in its order, areas in pictures."""
+
+    item: NDArray[np.intp]
+    enlarged: Floats
+    area: Floats
+    cost: Floats  # of it
+    low: Floats  # (n, 2)
+    high: Floats
+
+    def factor(self, first: int, last: int) -> int:
+        """The largest factor that all from `first` to before `last` bear; 1: none."""
+        for factor in FACTORS:
+            lost = self._lost(first, last, factor)
+            if not np.isinf(lost).any() and lost.sum() <= MINOR * self._seen(first, last):
+                return factor
+        return 1
+
+    def _lost(self, first: int, last: int, factor: int) -> Floats:
+        """Of each that is too sharp for a factor, the area, the more the sharper it is."""
+        over = factor / self.enlarged[first:last] - 1.0
+        lost: Floats = self.area[first:last] * np.where(over > 0.0, over + SLIGHT, 0.0)
+        lost[over > CROWDED - 1.0] = np.inf
+        return lost
+
+    def rectangle(self, first: int, last: int) -> Rectangle:
+        low, high = self.low[first:last].min(axis=0), self.high[first:last].max(axis=0)
+        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+    def _seen(self, first: int, last: int) -> float:
+        """How much of the picture shows them."""
+        return min(float(self.area[first:last].sum()), _size(self.rectangle(first, last)))
+
+    def stretches(
+        self, first: int, last: int, factor: int, least: float
+    ) -> Iterator[tuple[int, int]]:
+        """Long ones that bear a factor and cost so much; what is too sharp for it is at no end."""
+        if self.cost[first:last].sum() <= least:
+            return
+        lost = self._lost(first, last, factor)
+        order = np.argsort(lost)
+        within = np.empty(len(lost), bool)
+        within[order] = np.cumsum(lost[order]) <= MINOR * self._seen(first, last)
+        for begin, end in _true(within):
+            good = np.flatnonzero(lost[begin:end] == 0.0)
+            if not len(good) or self.cost[first + begin : first + end].sum() <= least:
+                continue
+            begin, end = begin + int(good[0]), begin + int(good[-1]) + 1
+            if lost[begin:end].sum() <= MINOR * self._seen(first + begin, first + end):
+                yield first + begin, first + end
+                continue
+            for one, other in _true(lost[begin:end] == 0.0):
+                if self.cost[first + begin + one : first + begin + other].sum() > least:
+                    yield first + begin + one, first + begin + other
+
+    def worth(self, first: int, last: int, base: int) -> tuple[float, list[Stretch]]:
+        """What canvases save at a base of so many pixels, in pictures, and which they are."""
+        rate = OPEN if base == 1 else base**-2
+        saved, found = 0.0, list[Stretch]()
+        free = np.ones(last - first, bool)
+        for factor in FACTORS[: -1 if base == 1 else FACTORS.index(base)]:
+            for begin, end in self.stretches(first, last, factor, LEAST / rate):
+                cost = float(self.cost[begin:end].sum())
+                if not free[begin - first : end - first].all():
+                    continue
+                shown = SHOWN * _size(self.rectangle(begin, end))
+                won = cost * (rate - factor**-2) - shown * rate
+                if won > LEAST:
+                    saved += won
+                    found.append((begin, end, factor))
+                    free[begin - first : end - first] = False
+        return saved, sorted(found)
 
 
 def find_groups(
@@ -52,58 +136,86 @@ def find_groups(
 ) -> list[Group]:  # fmt: skip
     """The groups among `items`, which show the clouds `drawn`.
 
-    tiles: heights of their pictures; seen: of those with billboards; parted: m from the camera,
-    where something stands that no group has clouds on both sides of.
+    tiles: heights of their pictures; parted: m from the camera, where something stands that no
+    group has clouds on both sides of.
     """
     found: list[Group] = []
-    some = items.ends > items.begins
-    bills = np.isin(items.kinds, (BILLBOARDS, SOFT))
-    if scene.parallel or not (bills & some).any():
+    some = np.flatnonzero(items.ends > items.begins)
+    if scene.parallel or not len(some):
         return found
-    enlarged = _enlarged(scene, store, drawn, bills, tiles)
-    area, low, high = np.zeros(len(drawn)), -np.ones((len(drawn), 2)), np.ones((len(drawn), 2))
-    area[bills], low[bills], high[bills] = seen.area, seen.low, seen.high
-    enlarged[area > HEAVY * seen.whole] *= LENIENT
-    # What draws nothing is in nobody's way.
-    good = np.append((enlarged >= FACTORS[-1]) | ~some, False)
-    center, half = scene.center[drawn], SPARE * scene.half[drawn]
-    beyond = scene.away[drawn] > parted
-    first = 0
-    while first < len(drawn) and len(found) < MOST:
-        if not (good[first] and bills[first] and some[first]):
-            first += 1
-            continue
-        inside = first + np.flatnonzero(some[first : first + int(np.argmin(good[first:]))])
-        others = beyond[inside] != beyond[first]
-        inside = inside[: int(np.argmax(np.append(others, True)))]
-        held, guard = _guard(center[inside], half[inside])
-        inside = inside[:held]
-        inside = inside[: int(np.max(np.flatnonzero(bills[inside]), initial=-1)) + 1]
-        if len(inside):
-            small = area[inside] < MINOR * area[inside].sum()
-            least = (enlarged[inside] * np.where(small, CROWDED, 1.0)).min()
-            factor = next(each for each in FACTORS if each <= least)
-            (left, bottom), (right, top) = low[inside].min(axis=0), high[inside].max(axis=0)
-            shown = 0.25 * (right - left) * (top - bottom) * seen.whole
-            if area[inside].sum() * (OPEN - factor**-2) > WORTH * OPEN * shown:
-                rectangle = float(left), float(bottom), float(right), float(top)
-                depth = _depth(view, *guard)
-                last = int(inside[-1]) + 1
-                found.append(Group(first, last, factor, depth, rectangle, bool(beyond[first])))
-            first = int(inside[-1])
-        first += 1
-    return found
+    which, bills = drawn[some], np.isin(items.kinds[some], (BILLBOARDS, SOFT))
+    enlarged = _enlarged(scene, store, which, bills, tiles[some])
+    enlarged[bills & (seen.area[some] > HEAVY * seen.whole)] *= LENIENT
+    area = seen.area[some] / seen.whole
+    cost = area * np.where(bills, DEAR, 1.0)
+    shown = _Shown(some, enlarged, area, cost, seen.low[some], seen.high[some])
+    center, half = scene.center[which], SPARE * scene.half[which]
+    # Billboards that lie level hang lower than what they stand for.
+    lowest = np.where(bills, -np.inf, scene.lowest[which])
+    beyond = scene.away[which] > parted
+    for side in (True, False):
+        for begin, end in _true(beyond == side):
+            for first, last in shown.stretches(begin, end, FACTORS[-1], LEAST / OPEN):
+                while first < last and OPEN * shown.cost[first:last].sum() > LEAST:
+                    held, plane = guard_of(*(part[first:last] for part in (center, half, lowest)))
+                    if held:
+                        groups = _groups_of(shown, first, first + held)
+                        depth = depth_of(view, plane)
+                        found += [_put(each, depth, side) for each in groups]
+                    first += max(held, 1)
+    return sorted(found)[:MOST]
+
+
+def _groups_of(shown: _Shown, first: int, last: int) -> list[Group]:
+    """One for all, with others in it, or some, as it is worth; their guard is left open."""
+    factor = shown.factor(first, last)
+    apart, parts = shown.worth(first, last, 1)
+    if factor > 1:
+        cost = float(shown.cost[first:last].sum())
+        rectangle = shown.rectangle(first, last)
+        inside, inner = shown.worth(first, last, factor)
+        together = cost * (OPEN - factor**-2) + inside - SHOWN * OPEN * _size(rectangle)
+        if together > max(apart, LEAST):
+            return [_group(shown, first, last, factor, inner)]
+    return [_group(shown, *part) for part in parts]
+
+
+def _group(
+    shown: _Shown, first: int, last: int, factor: int, inner: list[Stretch] | None = None
+) -> Group:
+    items, depth = shown.item, (0.0, 0.0, 0.0)
+    parts = tuple(_group(shown, *part) for part in (inner or ())[:MOST])
+    rectangle = shown.rectangle(first, last)
+    return Group(int(items[first]), int(items[last - 1]) + 1, factor, depth, rectangle, True, parts)
+
+
+def _put(group: Group, depth: tuple[float, float, float], beyond: bool) -> Group:
+    """Behind its guard, and with all in it."""
+    inner = tuple(_put(each, depth, beyond) for each in group.inner)
+    return group._replace(depth=depth, beyond=beyond, inner=inner)
+
+
+def _size(rectangle: Rectangle) -> float:
+    """In pictures."""
+    left, low, right, high = rectangle
+    return 0.25 * (right - left) * (high - low)
+
+
+def _true(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """From where to before where it is."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]))).tolist()
+    return list(zip(edges[::2], edges[1::2], strict=True))
 
 
 def _enlarged(
-    scene: CloudScene, store: CloudStore, drawn: NDArray, bills: NDArray, tiles: NDArray
+    scene: CloudScene, store: CloudStore, which: NDArray, bills: NDArray, tiles: NDArray
 ) -> Floats:
     """(n,) pixels on a side of a texel that counts."""
-    away = np.maximum(scene.away[drawn], MIDST * scene.reach[drawn])
-    wide = _widths(scene, store, drawn) * scene.clouds["scale"][drawn] * (scene.unit / away)
-    detail = np.maximum(store.detail[scene.shapes[drawn]], 0.05)
-    pictured = scene.pixels[drawn] / (detail * np.maximum(tiles, 1))
-    return SHARP * np.where(bills, wide / (SIZE * detail), pictured)
+    away = np.maximum(scene.away[which], MIDST * scene.reach[which])
+    wide = _widths(scene, store, which) * scene.clouds["scale"][which] * (scene.unit / away)
+    detail = np.maximum(store.detail[scene.shapes[which]], 0.05)
+    pictured = scene.pixels[which] / (detail * np.maximum(tiles, 1))
+    return np.where(bills, SHARP * wide / (SIZE * detail), CRISP * pictured)
 
 
 def _widths(scene: CloudScene, store: CloudStore, which: NDArray) -> Floats:
@@ -111,31 +223,3 @@ def _widths(scene: CloudScene, store: CloudStore, which: NDArray) -> Floats:
     shapes, above = scene.shapes[which], scene.center[which, 1] < -scene.half[which, 1]
     widths: Floats = np.where(above, store.wide_top[shapes], store.wide[shapes])
     return widths
-
-
-def _guard(center: Floats, half: Floats) -> tuple[int, tuple[Floats, float]]:
-    """How many of the clouds one plane keeps from the camera, and the farthest such plane.
-
-    The plane is normal . p = distance; it lies below them all, above, or across the way to them.
-    """
-    way = center.mean(axis=0)
-    way = way / max(float(np.linalg.norm(way)), 1e-6)
-    normals = np.array([(0.0, 1.0, 0.0), (0.0, -1.0, 0.0), way])
-    distances = np.minimum.accumulate(center @ normals.T - half @ np.abs(normals).T)
-    held = int((distances >= NEAREST).any(axis=1).sum())
-    if not held:
-        return 0, (way, 0.0)
-    last = distances[held - 1]
-    along = np.where(last >= NEAREST, last / np.maximum(normals @ way, 0.02), -1.0)
-    best = int(np.argmax(along))
-    return held, (normals[best], float(last[best]))
-
-
-def _depth(view: ViewData, normal: Floats, distance: float) -> tuple[float, float, float]:
-    """Depth of a plane in the picture, -1 to 1, which changes evenly across it."""
-    p = view.projection
-    x, y, z = view.view[:3, :3] @ normal
-    share = p[2, 3] / distance
-    across = share * x / p[0, 0], share * y / p[1, 1]
-    middle = share * (x * p[0, 2] / p[0, 0] + y * p[1, 2] / p[1, 1] - z) - p[2, 2]
-    return float(across[0]), float(across[1]), float(middle)

@@ -21,7 +21,6 @@ from weather_ecs.physics.veil import BEYOND, curtain_share, rain_path
 LINES, COLUMNS = 33, 5  # of the picture, that are looked along
 OPAQUE = math.log(2.0 * 255.0)  # optical depth behind which white and black are the same
 MOST = 4  # veils that are looked at
-UNDER = 0.08  # of half its height, as far as a cloud shows below its base; see cloud.vert
 
 
 def hidden_below(view: ViewData, scene: CloudScene) -> float:
@@ -29,8 +28,7 @@ def hidden_below(view: ViewData, scene: CloudScene) -> float:
     seen = scene.order
     if scene.parallel or not len(seen):
         return -1.0
-    lowest = scene.center[seen, 1] + scene.base[seen] - UNDER * scene.half[seen, 1]
-    return opaque_below(view, float(lowest.min()))
+    return opaque_below(view, float(scene.lowest[seen].min()))
 
 
 def opaque_below(view: ViewData, height: float = math.inf) -> float:

@@ -25,7 +25,7 @@ from weather_ecs.gpu.cloud_scene import (
     scene_of,
     surround_of,
 )
-from weather_ecs.gpu.cloud_seen import SeenClouds
+from weather_ecs.gpu.cloud_seen import Seen, SeenClouds, pictures_seen, together
 from weather_ecs.gpu.cloud_sequence import BILLBOARDS, SOFT, Between, Items
 from weather_ecs.gpu.cloud_shadow_pass import CloudShadowPass
 from weather_ecs.gpu.cloud_store import CloudStore
@@ -188,14 +188,14 @@ class CloudPass:
         self._programs.bind()
         self._use_textures(self._store, self._observers[view.key])
         meets = meeting(view, self._scene, self._real)
-        items, self._groups = self._find_items(view, meets), []
+        (items, seen), self._groups = self._find_items(view, meets), []
         self._matrix = camera_matrix(view)
         self._programs.aim(self._matrix)
         look = view.frame.cloud_look
         if self.canvases_on and not (look.plain or look.rays):
             tiles = self._observers[view.key].kept["tile"][self._drawn, 2]
             self._groups = find_groups(
-                view, self._scene, self._store, self._drawn, items, tiles, self._seen, parted
+                view, self._scene, self._store, self._drawn, items, tiles, seen, parted
             )
         for group in self._groups:
             kinds = items.kinds[group.first : group.last]
@@ -251,8 +251,8 @@ class CloudPass:
         middles[~bills] += beyond & (items.ends > items.begins)[~bills]
         return np.minimum(middles, items.ends)
 
-    def _find_items(self, view: ViewData, meets: NDArray[np.bool_]) -> Items:
-        """All that is drawn, back to front; writes the rows of the pictures."""
+    def _find_items(self, view: ViewData, meets: NDArray[np.bool_]) -> tuple[Items, Seen]:
+        """All that is drawn, back to front, and how much it shows; writes the pictures' rows."""
         scene, impostors = self._scene, self._observers[view.key]
         bills, begins = self._by_billboards, self._begins[: len(self._real) + 1]
         stretches = begins[:-1], np.where(self._seen.area > 0.0, begins[1:], begins[:-1])
@@ -263,7 +263,10 @@ class CloudPass:
         self._quads.write(quads)
         self._quads.texture.use(UNITS["cloud_quads"])
         kinds = picture_kinds(view, scene, which, quads)
-        return items_of(bills, np.where(meets, SOFT, BILLBOARDS), stretches, pictures, kinds)
+        items = items_of(bills, np.where(meets, SOFT, BILLBOARDS), stretches, pictures, kinds)
+        seen = together((bills, self._seen), (pictures, pictures_seen(view, scene, quads)))
+        items.ends[seen.area <= 0.0] = items.begins[seen.area <= 0.0]
+        return items, seen
 
     def _use_textures(self, store: CloudStore, impostors: Impostors) -> None:
         self._programs.images.use(UNITS["cloud_images"])

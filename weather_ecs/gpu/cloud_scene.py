@@ -15,6 +15,7 @@ from weather_ecs.physics.cloud_light import Surround
 
 REACH = 200_000.0  # m, beyond which no cloud is drawn
 LOST = 0.90, 0.99  # share of haze from which a cloud fades, and at which it is gone
+UNDER = 0.08  # of half its height, as far as a cloud shows below its base; see cloud.vert
 Floats = NDArray[np.float64]
 
 
@@ -36,6 +37,12 @@ class CloudScene:
     pixels: Floats
     unit: float  # pixels that a unit of width at unit depth takes
     parallel: bool  # the camera's rays are: no impostors then
+
+    @property
+    def lowest(self) -> Floats:
+        """(n,) m over the camera, that anything shows of each."""
+        low: Floats = self.center[:, 1] + self.base - UNDER * self.half[:, 1]
+        return low
 
     def hide(self) -> None:
         """None of the clouds is seen after all."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 # How an item is drawn. Billboards count in the stream, pictures in the rows of quads.
 BILLBOARDS, SOFT, PICTURE, FADING, LIT, LIT_FADING = range(6)
+PICTURES = (PICTURE, FADING, LIT, LIT_FADING)
 
 
 class Between(NamedTuple):
@@ -29,6 +30,11 @@ class Items(NamedTuple):
     def part(self, first: int, last: int) -> Items:
         """The items from `first` to before `last`."""
         return Items(self.kinds[first:last], self.begins[first:last], self.ends[first:last])
+
+    def shows(self, first: int, last: int, kinds: tuple[int, ...]) -> bool:
+        """Whether any from `first` to before `last` is of these kinds, and draws something."""
+        some = self.ends[first:last] > self.begins[first:last]
+        return bool(np.isin(self.kinds[first:last][some], kinds).any())
 
     def parted(self, middles: NDArray[np.intp]) -> tuple[Items, Items]:
         """What of each comes before its middle, and what after."""
