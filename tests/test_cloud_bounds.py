@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from types import SimpleNamespace
 
 import moderngl
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from tests.cloud_stage import CloudStage, cloud_stage, clouds, shape, sky_frame, view_of
 from weather_ecs.gpu.cloud_bounds import picture_bounds, shared_octagon
 from weather_ecs.gpu.cloud_scene import scene_of
+from weather_ecs.gpu.cloud_seen import pictures_seen
 
 SLANTED = ((-300.0, -150.0, 0.0), (0.0, 0.0, 0.0), (300.0, 150.0, 0.0))
 FAR = {"position": (0.0, 500.0, -2000.0)}
@@ -71,6 +73,34 @@ def test_an_older_picture_is_not_cut_off_by_a_smaller_one(stage: CloudStage) -> 
     assert (stage.cover(before) > 0.02).sum() > 1.5 * (
         stage.cover(stage.draw(after, pitch=0.25)) > 0.02
     ).sum()
+
+
+def test_an_older_picture_that_no_longer_fits_is_left_out(stage: CloudStage) -> None:
+    data = shape(centers=SLANTED, billboards=20)
+    for _ in range(40):
+        stage.draw(sky_frame(clouds(FAR), data), pitch=0.25, dt=0.1)
+    after = sky_frame(clouds({**FAR, "growth": 0.35}), data)
+    stage.draw(after, pitch=0.25, dt=1e-4)
+    kept = stage.passes.impostors().kept
+    assert kept["share"][0] < 0.01
+    kept["old_quad"][0, 1:] *= 9.0
+    alone = stage.draw(after, pitch=0.25, dt=1e-4)
+    assert kept["share"][0] < 0.1
+    stage.draw(after, pitch=0.25, dt=1.0)
+    assert kept["share"][0] >= 1.0
+    assert (stage.cover(alone) > 0.02).mean() > 0.003
+    assert np.abs(alone - stage.draw(after, pitch=0.25, dt=1e-4)).max() < 1.5 / 255.0
+
+
+def test_what_is_seen_of_a_picture_counts_the_older_one_around_it() -> None:
+    view, scene = view_of(sky_frame(clouds(FAR))), SimpleNamespace(unit=100.0)
+    quads = np.zeros((2, 9, 4), np.float32)
+    quads[:, :3, :3] = (0.0, 0.0, -100.0), (10.0, 0.0, 0.0), (0.0, 5.0, 0.0)
+    quads[:, 3, 3] = 1.0, 3.0
+    seen = pictures_seen(view, scene, quads)  # type: ignore[arg-type]
+    assert seen.high[1] == pytest.approx(3.0 * seen.high[0])
+    assert seen.low[1] == pytest.approx(3.0 * seen.low[0])
+    assert seen.area[1] == pytest.approx(9.0 * seen.area[0])
 
 
 def test_a_picture_that_is_no_likeness_gives_way_at_once() -> None:

@@ -10,8 +10,10 @@ import moderngl
 import numpy as np
 import pytest
 
-from tests.cloud_stage import CloudStage, cloud_stage, clouds, shape, sky_frame, view_of
+from tests.cloud_stage import SIZE, CloudStage, cloud_stage, clouds, shape, sky_frame, view_of
 from tests.conftest import living
+from tests.views import perspective
+from weather_ecs.gpu.cloud_canvas import _part
 from weather_ecs.gpu.cloud_sequence import BILLBOARDS, PICTURE, Items, runs
 from weather_ecs.gpu.gl import GL
 
@@ -180,3 +182,29 @@ def test_what_stands_between_the_guard_and_a_picture_hides_the_picture(crowded: 
     assert np.abs(hidden - straight)[:, left].mean() < 0.12 * open_sky[:, left].mean()
     np.testing.assert_allclose(hidden[:, middle:], open_sky[:, middle:], atol=0.02)
     np.testing.assert_allclose(with_hill(15000.0), open_sky, atol=0.02)
+
+
+def test_what_of_a_canvas_is_painted_lies_in_it() -> None:
+    width, height = 96, 54
+    whole = (-1.0, -1.0, 1.0, 1.0)
+    assert _part(whole, -1.0, width, height) == (0, 0, width, height)
+    left, bottom, across, up = _part((-0.5, 0.0, 0.5, 0.5), 0.25, width, height)
+    assert left <= 24 and left + across >= 72 and bottom <= 33 and bottom + up >= 40
+    # All of it is below what rain hides, and so is none of it painted.
+    for top in (-0.9, 0.0, 0.3):
+        left, bottom, across, up = _part((-1.0, -1.0, 1.0, top), 0.6, width, height)
+        assert up == 0 and 0 <= bottom <= height and left + across <= width
+
+
+def test_a_guard_nearer_than_the_near_plane_lets_the_scene_hide_pictures(crowded: Any) -> None:
+    stage, frame = crowded
+    near, far, distance = 3000.0, UP["far"], 3100.0
+    ndc = (far + near) / (far - near) - 2.0 * far * near / ((far - near) * distance)
+    projection = perspective(aspect=SIZE[0] / SIZE[1], near=near, far=far)
+    stage.target.clear(*stage.background, depth=1.0)
+    half = (0, 0, stage.target.width // 2, stage.target.height)
+    stage.target.clear(*stage.background, depth=0.5 * ndc + 0.5, viewport=half)
+    stage.renderer.draw(replace(view_of(frame, **UP), projection=projection), stage.settings)
+    assert stage.passes._groups[0].depth[2] < 0.0
+    cover, middle = stage.cover(stage.picture()), stage.target.width // 2
+    assert cover[:, : middle - 12].mean() < 0.03 * cover[:, middle:].mean()

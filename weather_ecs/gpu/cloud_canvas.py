@@ -144,4 +144,5 @@ def _part(
     first, last = max(math.floor(left) - 1, 0), min(math.ceil(right) + 1, width)
     bottom = max(below(max(rectangle[1], low), height) - 1, 0)
     top = min(below(rectangle[3], height) + 2, height)
-    return first, bottom, last - first, top - bottom
+    # Wholly below that height there is nothing to paint, and OpenGL knows no height below 0.
+    return first, bottom, last - first, max(top - bottom, 0)

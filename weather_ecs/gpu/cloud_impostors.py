@@ -235,7 +235,11 @@ class Impostors:
         # The older picture may show something where the newer one has nothing.
         both = np.flatnonzero(kept["share"] < 1.0)
         if len(both):
-            rows[both, 3, 3], rows[both, 8] = self._shared(scene, which[both])
+            size, cuts = self._shared(scene, which[both])
+            some = np.isfinite(size)
+            rows[both[some], 3, 3], rows[both[some], 8] = size[some], cuts[some]
+            # The camera has moved so far meanwhile that the older one is no likeness.
+            rows[both[~some], 1, 3] = 1.0
         return rows
 
     def _shared(self, scene: CloudScene, which: NDArray[np.intp]) -> tuple[NDArray, NDArray]:

@@ -78,6 +78,8 @@ class SeenClouds:
 def pictures_seen(view: ViewData, scene: CloudScene, quads: NDArray[np.float32]) -> Seen:
     """Of pictures; quads: as shaders/cloud_quad.vert reads them."""
     middle, right, up = (quads[:, k, :3].astype(np.float64) for k in range(3))
+    # What gives way to a smaller one may reach out beyond it.
+    right, up = right * quads[:, 3, 3:], up * quads[:, 3, 3:]
     rim = np.stack([middle + x * right + y * up for x in (-1, 1) for y in (-1, 1)], axis=1)
     share, low, high = _rectangles(view, rim, LEAST_DEPTH * np.linalg.norm(right, axis=1)[:, None])
     pixels = _whole(view, scene)

@@ -14,5 +14,6 @@ void main()
     float depth = dot(vec3(p, 1.0), canvas_depth);
     vs_guard = depth * 0.5 + 0.5;
     vs_reach = canvas_factor / vec2(textureSize(scene_depth, 0));
-    gl_Position = vec4(p, depth, 1.0);
+    // The same beyond the far plane, but not cut off where the guard is before the near one.
+    gl_Position = vec4(p, 1.0 - 0.001 * (1.0 - depth), 1.0);
 }
