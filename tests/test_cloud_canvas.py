@@ -113,6 +113,32 @@ def test_canvases_are_kept_and_given_back(ctx: moderngl.Context) -> None:
     assert living(gl) == before
 
 
+def test_observers_with_pictures_of_different_sizes_keep_theirs(ctx: moderngl.Context) -> None:
+    def draw(stage: CloudStage, size: tuple[int, int]) -> Any:
+        stage.target.viewport = (0, 0, *size)
+        stage.draw(near_frame(), pitch=0.5)
+        return stage.passes._canvases._shown[0]
+
+    gl = GL()
+    with cloud_stage(ctx) as stage:
+        sizes = [(SIZE[0] - 8 * k, SIZE[1]) for k in range(6)]
+        first = [draw(stage, size) for size in sizes[:2]]
+        two = living(gl)
+        for _ in range(3):
+            assert [draw(stage, size) for size in sizes[:2]] == first
+        assert living(gl) == two
+        # While a window is drawn larger or smaller there are not ever more of them.
+        for size in sizes:
+            draw(stage, size)
+        most = living(gl)["texture"]
+        for size in sizes * 2:
+            draw(stage, size)
+        assert len(living(gl)["texture"]) == len(most)
+        for _ in range(70):
+            draw(stage, sizes[0])
+        assert len(living(gl)["texture"]) < len(two["texture"])
+
+
 def test_runs_join_neighbours_of_one_kind_that_follow_on_each_other() -> None:
     kinds = np.array([BILLBOARDS, BILLBOARDS, PICTURE, PICTURE, PICTURE, BILLBOARDS, BILLBOARDS])
     begins = np.array([0, 4, 0, 9, 1, 9, 15])

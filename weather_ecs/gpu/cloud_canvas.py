@@ -17,6 +17,8 @@ from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 FAR = ProgramKey(vertex="cloud_far.vert", fragment="cloud_far.frag")
 SHOW = ProgramKey(vertex="cloud_canvas.vert", fragment="cloud_canvas.frag")
 UNIT = UNITS["cloud_seeds"]  # which clouds of a canvas do without
+KEPT = 64  # times that others are painted, until canvases of a picture's size are given back
+SIZES = 4  # of pictures whose canvases are kept, at most
 
 
 class Canvas:
@@ -45,7 +47,10 @@ class CloudCanvases:
         self._far = shaders.program(FAR)
         self._far["scene_depth"] = UNITS["scene_depth"]
         self._arrays = [ctx.vertex_array(each, []) for each in (self._program, self._far)]
-        self._kept: dict[tuple[int, int, int], Canvas] = {}  # by size and number
+        # By number and factor, of each size of a picture: observers may have several.
+        self._kept: dict[tuple[int, int], dict[tuple[int, int], Canvas]] = {}
+        self._asked: dict[tuple[int, int], int] = {}  # when for each size
+        self._times = 0
         self._size = (0, 0)
         self._shown: list[Canvas] = []
         self._used = 0
@@ -60,9 +65,11 @@ class CloudCanvases:
 
         What the programs draw, they draw for the picture's camera.
         """
-        if size != self._size:
-            self.clear()
-            self._size = size
+        self._size = size
+        self._times += 1
+        self._asked.pop(size, None)
+        self._asked[size] = self._times  # the latest comes last
+        self._forget_unused()
         self._used = 0
         self._shown = [self._paint(group, items, programs, low) for group in groups]
 
@@ -102,12 +109,22 @@ class CloudCanvases:
 
     def _canvas(self, factor: int) -> Canvas:
         width, height = (-(-side // factor) for side in self._size)
-        key = (width, height, self._used)
+        key = self._used, factor
         self._used += 1
-        found = self._kept.get(key)
+        kept = self._kept.setdefault(self._size, {})
+        found = kept.get(key)
         if found is None:
-            found = self._kept[key] = Canvas(self._ctx, (width, height))
+            found = kept[key] = Canvas(self._ctx, (width, height))
         return found
+
+    def _forget_unused(self) -> None:
+        """Give back what was made for a size that no picture has any more."""
+        sizes = list(self._asked)
+        gone = [size for size in sizes[:-1] if self._asked[size] + KEPT < self._times]
+        for size in {*gone, *sizes[:-SIZES]}:
+            del self._asked[size]
+            for canvas in self._kept.pop(size, {}).values():
+                canvas.release()
 
     def show(self, number: int, group: Group) -> None:
         """Blending for premultiplied colours and the depth test are the caller's."""
@@ -124,9 +141,11 @@ class CloudCanvases:
 
     def clear(self) -> None:
         """Give all textures back."""
-        for canvas in self._kept.values():
-            canvas.release()
+        for kept in self._kept.values():
+            for canvas in kept.values():
+                canvas.release()
         self._kept.clear()
+        self._asked.clear()
         self._shown = []
 
     def release(self) -> None:
