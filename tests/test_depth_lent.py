@@ -13,7 +13,7 @@ import pytest
 from tests.rain_frames import camera, frame, quality
 from weather_ecs.frame import FogData, ViewData
 from weather_ecs.gpu import gl_enums as e
-from weather_ecs.gpu.depth_lent import READ, LentDepth
+from weather_ecs.gpu.depth_lent import MOST, READ, LentDepth
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
 from weather_ecs.gpu.renderer import Renderer
@@ -100,6 +100,42 @@ def test_what_is_not_the_whole_of_a_plain_texture_is_copied(
     with guard:
         assert lent.take(guard) is None
     assert gl.error() == 0
+
+
+def test_a_texture_that_the_host_has_deleted_is_copied(
+    ctx: moderngl.Context, gl: GL, keep: Keep, guard: StateGuard, lent: LentDepth
+) -> None:
+    depth = ctx.depth_texture(SIZE)
+    target = keep(ctx.framebuffer([keep(ctx.texture(SIZE, 4))], depth))
+    keep(ctx.framebuffer([keep(ctx.texture(SIZE, 4))])).use()
+    depth.release()
+    target.use()
+    with guard:
+        assert lent.take(guard) is None
+    assert gl.error() == 0
+
+
+def test_targets_that_take_turns_are_known_again(
+    ctx: moderngl.Context, keep: Keep, guard: StateGuard, lent: LentDepth
+) -> None:
+    targets = [
+        keep(ctx.framebuffer([keep(ctx.texture(SIZE, 4))], keep(ctx.depth_texture(SIZE))))
+        for _ in range(MOST + 1)
+    ]
+
+    def taken(target: moderngl.Framebuffer) -> Any:
+        target.use()
+        with guard:
+            found = lent.take(guard)
+            lent.give_back()
+        assert found is not None and found.glo == target.depth_attachment.glo  # type: ignore
+        return found
+
+    few = [taken(target) for target in targets[:2]]
+    assert [taken(target) for target in targets[:2]] == few
+    for target in targets:
+        taken(target)
+    assert len(lent._known) <= MOST
 
 
 def test_fog_is_the_same_over_a_lent_depth_and_a_copy(

@@ -145,6 +145,32 @@ def test_the_choice_of_draw_buffers_survives(
     assert (gl.get_int(0x8825), gl.get_int(0x8826)) == (0, 0x8CE1)
 
 
+@pytest.mark.parametrize("number", [1, 2, 3])
+def test_what_one_of_several_targets_has_of_its_own_survives(
+    ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep, number: int
+) -> None:
+    target = keep(ctx.framebuffer([keep(ctx.texture((4, 4), 4)) for _ in range(4)]))
+    target.use()
+    found = (ctypes.c_int * 4)()
+
+    def masks() -> list[tuple[int, ...]]:
+        every = []
+        for index in range(4):
+            gl.glGetIntegeri_v(0x0C23, index, ctypes.addressof(found))  # COLOR_WRITEMASK
+            every.append((gl.glIsEnabledi(0x0BE2, index), *found))  # BLEND
+        return every
+
+    gl.glColorMaski(number, 1, 0, 1, 0)
+    gl.glEnablei(0x0BE2, number)
+    before = masks()
+    assert before[0] != before[number]
+    with guard:
+        assert masks() == [(0, 1, 1, 1, 1)] * 4
+    assert masks() == before
+    gl.glColorMask(1, 1, 1, 1)
+    gl.glDisable(0x0BE2)
+
+
 def test_layered_and_multisampled_framebuffers_raise_no_error(
     ctx: moderngl.Context, gl: GL, guard: StateGuard, keep: Keep
 ) -> None:

@@ -33,6 +33,7 @@ WHOLE = (
     (e.FRAMEBUFFER_ATTACHMENT_TEXTURE_LAYER, 0),
     (e.FRAMEBUFFER_ATTACHMENT_LAYERED, 0),
 )
+MOST = 8  # textures of hosts that are known at once
 
 
 class LentDepth:
@@ -50,8 +51,10 @@ class LentDepth:
         self._able = software and gl.glTextureBarrier is not None
         self._value = ctypes.c_int()
         self._place = ctypes.addressof(self._value)
-        self._texture: moderngl.Texture | None = None
-        self._given: list[tuple[int, int]] = []  # the host's values of what READ changes
+        # moderngl never frees all of what it makes for a host's texture, so each is made once.
+        self._known: dict[tuple[int, tuple[int, int]], moderngl.Texture] = {}
+        # The host's values of what READ changes, each with the name of its texture.
+        self._given: list[tuple[int, int, int]] = []
 
     def take(self, guard: StateGuard) -> moderngl.Texture | None:
         """The depth as it is now, to be read until `give_back`; None where a copy is needed.
@@ -66,27 +69,26 @@ class LentDepth:
             if attached(*point, name) != wanted:
                 return None
         texture = attached(*point, e.FRAMEBUFFER_ATTACHMENT_OBJECT_NAME)
+        # What the host has deleted stays attached, but is known by its name no more.
+        if not gl.glIsTexture(texture):
+            return None
         if any(self._of(texture, name) != wanted for name, wanted in PLAIN):
             return None
         size = self._size(texture)
         if guard.viewport != (0, 0, *size):
             return None
-        if self._texture is None or (self._texture.glo, self._texture.size) != (texture, size):
-            self._drop()
-            self._texture = self._ctx.external_texture(texture, size, 1, 0, "f4")
         for name, wanted in READ:
             found = self._of(texture, name)
             if found != wanted:
-                self._given.append((name, found))
+                self._given.append((texture, name, found))
                 gl.glTextureParameteri(texture, name, wanted)
         gl.glTextureBarrier()
-        return self._texture
+        return self._wrapped(texture, size)
 
     def give_back(self) -> None:
         """The host's own ways of reading it again; without `take` nothing is done."""
-        if self._given and self._texture is not None:
-            for name, value in self._given:
-                self._gl.glTextureParameteri(self._texture.glo, name, value)
+        for given in self._given:
+            self._gl.glTextureParameteri(*given)
         self._given.clear()
 
     def _of(self, texture: int, name: int) -> int:
@@ -101,12 +103,18 @@ class LentDepth:
             sides.append(self._value.value)
         return sides[0], sides[1]
 
-    def _drop(self) -> None:
-        """Forget moderngl's object for the texture, which stays the host's."""
-        if self._texture is not None:
-            self._texture.release()
-            self._texture = None
+    def _wrapped(self, texture: int, size: tuple[int, int]) -> moderngl.Texture:
+        """moderngl's object for the texture, which stays the host's."""
+        known = self._known.get((texture, size))
+        if known is None:
+            if len(self._known) == MOST:
+                self.release()
+            known = self._ctx.external_texture(texture, size, 1, 0, "f4")
+            self._known[texture, size] = known
+        return known
 
     def release(self) -> None:
-        """Forget the host's texture; twice does no harm."""
-        self._drop()
+        """Forget the host's textures; twice does no harm."""
+        for texture in self._known.values():
+            texture.release()
+        self._known.clear()

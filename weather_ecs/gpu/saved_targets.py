@@ -42,9 +42,13 @@ class DrawTargets:
             for name, place in self._reads:
                 get(name, place)
         self._different = []
-        # A host that blends its targets differently makes the second differ from the first.
-        if self._indices and self._read(1) != first:
+        # Of those that are drawn to, and the second, which a host that sets all of them changes.
+        asked = [index for index in self._indices if index == 1 or self._draws_to(index)]
+        if any(self._read(index) != first for index in asked):
             self._different = [(index, self._read(index)) for index in self._indices]
+
+    def _draws_to(self, index: int) -> bool:
+        return self._named and self._buffers[index] != e.NONE
 
     @property
     def differ(self) -> bool:
