@@ -97,6 +97,17 @@ def test_what_was_prepared_for_something_else_is_not_drawn(ctx: moderngl.Context
     assert np.abs(play(ctx, after) - play(ctx, elsewhere)).max() == 0
 
 
+def test_what_was_prepared_before_all_was_forgotten_is_not_drawn(ctx: moderngl.Context) -> None:
+    def forgets(made: Stage, view: np.ndarray, paint: Callable[[], None]) -> None:
+        made.target.use()
+        made.weather.prepare(view, PROJECTION)
+        made.weather.forget_drawn()
+        paint()
+        made.weather.draw(view, PROJECTION)
+
+    assert play(ctx, forgets).std() > 10.0
+
+
 def test_another_viewport_at_the_draw_counts(ctx: moderngl.Context) -> None:
     def larger(made: Stage, view: np.ndarray, paint: Callable[[], None]) -> None:
         made.target.use()

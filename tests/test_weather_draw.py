@@ -161,6 +161,21 @@ def test_a_closed_or_empty_window_is_a_harmless_frame(made):
     assert made[0].released == 0  # its objects went with the window
 
 
+def test_what_was_drawn_is_forgotten_in_the_window_s_context(made, monkeypatch):
+    window = FakeWindow()
+    weather = Weather(window)
+    switches = []
+    monkeypatch.setattr(made[0], "forget", lambda key: switches.append(window.switches))
+    before = window.switches
+    weather.forget_drawn()
+    window.context = None  # what it was drawn with went with the window
+    weather.forget_drawn()
+    assert switches == [before + 1]
+    weather.close()
+    weather.forget_drawn()
+    assert len(switches) == 1
+
+
 def test_a_window_that_is_closed_from_the_start(made):
     window = FakeWindow()
     window.context = None

@@ -244,13 +244,15 @@ class Weather(Contents):
         return PreparedDraw(self._view.view(frame, camera, key, settings), settings)
 
     def forget_drawn(self) -> None:
-        """Let nothing be left of what was drawn: drops that fly, splashes that have not sunk.
+        """Let go of drops that fly and splashes; for tools that put the weather back.
 
-        For tools that put the weather back; what observers were shown stays.
+        What observers were shown stays.
         """
-        if self._renderer is not None:
-            self._view.forget(IMPLICIT)
-            self._renderer.forget(IMPLICIT)
+        self._prepared = None  # of what is forgotten now
+        if self._renderer is not None and getattr(self._window, "context", self) is not None:
+            with current(self._window):
+                self._view.forget(IMPLICIT)
+                self._renderer.forget(IMPLICIT)
 
     def _make_renderer(self) -> Renderer:
         from weather_ecs.gpu.context import obtain
