@@ -72,8 +72,9 @@ def clip_columns(view: ViewData) -> list[float]:
     """The matrix from the world to clip space, 16 numbers column by column."""
     global _latest
     p, v = view.projection, view.view
-    if p is _latest[0] and v is _latest[1]:
-        return _latest[2]
+    before, seen, known = _latest  # at once: another thread may draw elsewhere
+    if p is before and v is seen:
+        return known
     found = product_columns(p.tolist(), v.tolist())
     if not (p.flags.writeable or v.flags.writeable):
         _latest = p, v, found
