@@ -244,10 +244,7 @@ class Weather(Contents):
         return PreparedDraw(self._view.view(frame, camera, key, settings), settings)
 
     def forget_drawn(self) -> None:
-        """Let go of drops that fly and splashes; for tools that put the weather back.
-
-        What observers were shown stays.
-        """
+        """Let go of flying drops and splashes, but not observers'; for tools that set it back."""
         self._prepared = None  # of what is forgotten now
         if self._renderer is not None and getattr(self._window, "context", self) is not None:
             with current(self._window):
