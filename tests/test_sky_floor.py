@@ -7,9 +7,11 @@ import moderngl
 import numpy as np
 import pytest
 
+from tests.cloud_stage import clouds, shape, sky_frame, view_of
 from tests.sky_stage import Stage
 from tests.worlds import fresh_world
 from weather_ecs.components import Cloud
+from weather_ecs.gpu.sky_floor import SkyFloor
 from weather_ecs.physics import sky_floor, sky_map
 from weather_ecs.physics.cloud_light import CLEAN, CLEAN_HEIGHT, surround
 
@@ -90,6 +92,17 @@ def below(stage: Stage, share: float, tops: np.ndarray) -> tuple[np.ndarray, np.
     )  # fmt: skip
     under = ways[..., 1] < -0.01
     return drawn[under], np.clip(sky_map.shown(light), 0.0, 1.0)[under]
+
+
+def test_a_low_deck_comes_to_cover_the_land_little_by_little() -> None:
+    wide = shape(size=(9000.0, 100.0, 9000.0))
+    places = [(x, 60.0, z) for x in (-6000.0, 6000.0) for z in (-6000.0, 6000.0)]
+    frame = sky_frame(clouds(*({"position": at} for at in places)), wide)
+    heights = [250.0, 299.0, 301.0, *np.linspace(320.0, 1400.0, 28)]
+    floors = [SkyFloor().of(view_of(frame, position=(0.0, h, 0.0))) for h in heights]
+    shares = np.array([floor.share for floor in floors])
+    assert shares[0] == 0.0 and shares[-1] > 0.15
+    assert (np.diff(shares) >= 0.0).all() and np.diff(shares).max() < 0.1 * shares[-1]
 
 
 def test_what_is_drawn_under_the_horizon_is_the_oracles(ctx: moderngl.Context) -> None:

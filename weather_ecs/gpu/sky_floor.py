@@ -54,7 +54,9 @@ class SkyFloor:
             return ground
         tops = (way[:, 1] + half[:, 1])[below]
         over = -float(np.average(tops, weights=areas[below]))
-        share = share_covered(areas[below]) * float(smoothstep(0.0, RISES, over))
+        # Nor at once where the tops are lower than HIGH.
+        share = share_covered(areas[below])
+        share *= float(smoothstep(0.0, RISES, min(over, height - HIGH)))
         dark = float(np.average(clouds["darkness"][below], weights=areas[below]))
         deep = depth_below(height, height - over)
         depth = ground.depth + share * (deep - ground.depth)
