@@ -63,6 +63,16 @@ def test_what_is_no_camera_is_named(bad: object) -> None:
         camera_from(np.eye(4), bad)
 
 
+@pytest.mark.parametrize("factor", [1e16, 1e39, 1e200, -1e39])
+def test_numbers_that_shaders_cannot_hold_are_refused(factor: float) -> None:
+    view, projection = look_from((0.0, 2.0, 0.0), 0.3), perspective()
+    with pytest.raises(InvalidValueError, match="view"):
+        camera_from(view * factor, projection)
+    with pytest.raises(InvalidValueError, match="projection"):
+        camera_from(view, projection * factor)
+    assert camera_from(view, projection * 1e10).position == pytest.approx((0.0, 2.0, 0.0))
+
+
 @given(st.lists(st.floats(-10.0, 10.0), min_size=12, max_size=12))
 def test_any_affine_view_is_inverted(numbers: list[float]) -> None:
     view = np.vstack([np.reshape(numbers, (3, 4)), [0.0, 0.0, 0.0, 1.0]])

@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 from weather_ecs.errors import InvalidValueError
 
+LARGEST = 1e15  # so that a product of two matrices fits into the shaders' 32 bits
+
 
 @dataclass(frozen=True, slots=True)
 class Camera:
@@ -77,9 +79,9 @@ def _camera(view: bytes, projection: bytes) -> Camera:
     """Of two (4, 4) float64 matrices row by row. Raises _UnusableError."""
     v, p = [np.frombuffer(data).reshape(4, 4) for data in (view, projection)]
     for name, array in (("view", v), ("projection", p)):
-        # A sum is finite only if every term is, and of so few numbers numpy's takes longer.
-        if not math.isfinite(sum(map(sum, array.tolist()))):
-            raise _UnusableError(name, "finite numbers")
+        # Of so few numbers numpy's sum takes longer. Of NaN the comparison is false.
+        if not sum(map(abs, array.ravel().tolist())) <= LARGEST:
+            raise _UnusableError(name, f"finite numbers, together at most {LARGEST:g}")
     try:
         i = _inverse(v)
         singular = _singular(projection)
