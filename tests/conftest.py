@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 import shutil
 import sys
@@ -15,8 +14,8 @@ import moderngl
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.gl_names import begin, living
 from tests.worlds import fresh_world
-from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.gl import GL
 
@@ -33,41 +32,12 @@ settings.register_profile(
 )
 settings.load_profile("steady")
 
-NAMES = range(1, 1024)  # drivers hand out the lowest free name
-
 
 class Releasable(Protocol):
     def release(self) -> Any: ...
 
 
 Thing = TypeVar("Thing", bound=Releasable)
-
-
-def living(gl: GL) -> dict[str, set[int]]:
-    """Names of the OpenGL objects there are, by kind.
-
-    A deleted program does not count: Mesa keeps one for as long as any shader stage remembers it.
-    """
-    status = ctypes.c_int()
-
-    def kept(is_one: Callable[[int], int], get: Callable[[int, int, int], None], name: int) -> bool:
-        if not is_one(name):
-            return False
-        get(name, e.DELETE_STATUS, ctypes.addressof(status))
-        return status.value == 0
-
-    kinds: dict[str, Callable[[int], int]] = {
-        "buffer": gl.glIsBuffer,
-        "texture": gl.glIsTexture,
-        "program": partial(kept, gl.glIsProgram, gl.glGetProgramiv),
-        "shader": partial(kept, gl.glIsShader, gl.glGetShaderiv),
-        "vertex array": gl.glIsVertexArray,
-        "framebuffer": gl.glIsFramebuffer,
-        "renderbuffer": gl.glIsRenderbuffer,
-        "sampler": gl.glIsSampler,
-        "query": gl.glIsQuery,
-    }
-    return {kind: {name for name in NAMES if there(name)} for kind, there in kinds.items()}
 
 
 def rest(context: moderngl.Context, gl: GL) -> None:
@@ -95,6 +65,7 @@ def ctx(watched: tuple[moderngl.Context, GL]) -> Iterator[moderngl.Context]:
     context, gl = watched
     with context:
         rest(context, gl)
+        begin(gl)
         before = living(gl)
         yield context
         error = gl.error()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tests.cloud_stage import SIZE, CloudStage, cloud_stage, clouds, shape, sky_frame, view_of
-from tests.conftest import living
+from tests.gl_names import living
 from tests.views import perspective
 from weather_ecs.gpu.cloud_canvas import _part
 from weather_ecs.gpu.cloud_sequence import BILLBOARDS, PICTURE, Items, runs

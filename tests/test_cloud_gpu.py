@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from tests.cloud_stage import SETTINGS, CloudStage, cloud_stage, clouds, shape, sky_frame, view_of
-from tests.conftest import living
 from tests.gl_host import Host, read_state
+from tests.gl_names import living
 from weather_ecs.errors import ShaderError
 from weather_ecs.frame import CloudLook, FrameData, SkyLight
 from weather_ecs.gpu import cloud_kit

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.boxes import CORNERS, TRIANGLES, box, placed
-from tests.conftest import living
+from tests.gl_names import living
 from tests.rain_frames import area, camera, frame, quality
 from tests.renderer_scene import far, near
 from tests.weather_pictures import Stage, stage

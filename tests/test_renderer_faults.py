@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from tests.boxes import CORNERS, TRIANGLES, placed
-from tests.conftest import living
+from tests.gl_names import living
 from tests.rain_frames import area, camera, frame, quality
 from tests.renderer_scene import far, matrices, near
 from tests.weather_pictures import SIZE, Stage, stage

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from tests.boxes import CORNERS, TRIANGLES, placed
-from tests.conftest import living
+from tests.gl_names import living
 from tests.ripple_stage import ONTO, data_of, only_grid, rain, read, renderer_of
 from tests.views import perspective
 from tests.weather_pictures import Stage, stage
