@@ -51,7 +51,7 @@ class GivenWeather:
         """The game has a weather of its own now."""
         if self.file is not None:
             self.file.leave()
-        self.file = None
+        self.file = self.report = None
 
     def _take(self, game: Game, file: FileWeather) -> None:
         """The file says something new."""
