@@ -32,8 +32,8 @@ __all__ = ["Footprint", "Heightmap", "fall_speed_of", "footprint"]
 
 _log = logging.getLogger("weather_ecs")
 
-# From [0, 1] to clip space, where the depth runs the same way.
 STILL = 128.0 / 255.0  # of a channel of velocities, see physics/ride.py
+# From [0, 1] to clip space, where the depth runs the same way.
 CLIP = np.array([[2.0, 0, 0, -1.0], [0, 2.0, 0, -1.0], [0, 0, 2.0, -1.0], [0, 0, 0, 1.0]])
 
 
