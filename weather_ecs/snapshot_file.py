@@ -78,6 +78,8 @@ def decode(data: bytes) -> dict[str, Any]:
         if not isinstance(document, dict):
             raise SnapshotError("the snapshot's content is not an object")
         return _with_cells(document, codes)
+    except SnapshotError:  # a ValueError as well, that has been said already
+        raise
     except (ValueError, RecursionError) as error:
         raise SnapshotError(f"the snapshot's content is not valid JSON: {error}") from None
 
