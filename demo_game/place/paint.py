@@ -15,7 +15,7 @@ SIZE = 1024  # texels
 LOW = np.array([-165.0, -220.0])  # (x, z), m, of the meadow's map
 HIGH = np.array([165.0, 110.0])
 MARGIN = 14.0  # m, over which the map gives way to plain colours
-DETAIL = 256
+DETAIL = 512
 
 
 def _mix(color: NDArray, other: NDArray, share: NDArray) -> NDArray:
@@ -106,8 +106,11 @@ def meadow(terrain: Terrain, shades: Sequence[tuple[float, float, float, float]]
 
 
 def detail() -> NDArray:
-    """(256, 256, 4) u1 tiled grey: wood grain along u, stone, leaves and grass, broad patches."""
-    n = DETAIL
+    """(512, 512, 4) u1 tiled grey: wood grain along u, stone, leaves and grass; broad patches.
+
+    The first three twice along each side.
+    """
+    n = DETAIL // 2
     u, v = np.meshgrid(np.arange(n) / n, np.arange(n) / n)
 
     def tiled(seed: int, across: int, along: int) -> NDArray:
@@ -120,8 +123,8 @@ def detail() -> NDArray:
     stone = 0.5 * tiled(4, 16, 16) + 0.4 * tiled(5, 32, 32) + 0.35 * tiled(6, 128, 128)
     grass = 0.35 * tiled(7, 8, 8) + 0.5 * tiled(8, 32, 32) + 0.5 * tiled(9, 64, 64)
     grass += 0.45 * tiled(10, 128, 128)
-    broad = patches(13, n)
-    layers = np.stack([wood, stone, grass, broad], -1)
+    fine = [np.tile(layer, (2, 2)) for layer in (wood, stone, grass)]
+    layers = np.stack([*fine, patches(13, DETAIL)], -1)
     layers /= np.abs(layers).max((0, 1)) * (0.75, 0.8, 0.75, 1.0)
     return np.clip(127.5 + 127.5 * layers, 0, 255).astype("u1")
 
@@ -129,11 +132,11 @@ def detail() -> NDArray:
 def patches(seed: int, n: int) -> NDArray:
     """(n, n) tiled noise without a lattice: shores of puddles show every lattice, as steps.
 
-    From 2 to 50 waves across, the longer the stronger.
+    From 2 to 100 waves across, the longer the stronger.
     """
     wave = np.fft.fftfreq(n, 1.0 / n)
     across = np.hypot(*np.meshgrid(wave, wave))
-    strength = np.where((across >= 2.0) & (across < 50.0), np.maximum(across, 1.0) ** -2.4, 0.0)
+    strength = np.where((across >= 2.0) & (across < 100.0), np.maximum(across, 3.0) ** -2.1, 0.0)
     white = np.random.default_rng(seed).standard_normal((n, n))
     field = np.fft.ifft2(np.fft.fft2(white) * strength).real
     return np.asarray(np.tanh(field / (2.6 * field.std()) - 0.09))

@@ -67,7 +67,7 @@ void main() {
     float bare = clamp((albedo.r - albedo.g) * 20.0 - 0.3, 0.0, 1.0);  // earth is redder than grass
     float wet = v_place.w;
 #ifdef NEAR
-    vec4 detail = texture(detail_map, p.xz * 0.31) - 0.5;
+    vec4 detail = texture(detail_map, p.xz * 0.155) - 0.5;
     albedo *= 1.0 + mix(detail.b * 1.35 + v_gust, detail.g, bare);
 #endif
     // Thin snow lies in the hollows first, and earth holds less of it than grass.

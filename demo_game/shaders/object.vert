@@ -113,8 +113,10 @@ void main() {
 #ifdef GRAIN
     v_mask = vec2(step(material, 0.5), step(0.5, material) * step(material, 1.5)) * 0.9;
 #endif
-#if defined(GRAIN) || defined(LEAVES)
+#ifdef LEAVES
     v_uv = in_uv;
+#elif defined(GRAIN)
+    v_uv = 0.5 * in_uv;
 #endif
     gl_Position = view_projection * vec4(p, 1.0);
 }

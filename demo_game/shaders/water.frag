@@ -18,7 +18,7 @@ out vec4 out_color;
 void main() {
     vec3 view = normalize(v_view.xyz);
     float drift = camera.w * 0.02;
-    vec2 wave = texture(detail_map, v_place * 0.13 + drift).ba - 0.5;
+    vec2 wave = texture(detail_map, v_place * 0.065 + 0.5 * drift).ba - 0.5;
     // A pixel's share of the water as a square: rings far off are seen as thin as they are.
     float pixel = sqrt(abs(determinant(mat2(dFdx(v_place), dFdy(v_place)))));
     vec2 slope = ripple_slope(v_place, pixel);
