@@ -9,6 +9,7 @@ from typing import Any
 import moderngl
 import pytest
 
+from tests.gl_names import living
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.timer import RING, GpuTimer, PrimitiveCounter
 
@@ -103,7 +104,7 @@ def test_the_hosts_queries_go_on(
         draw(1)
     gl.glFinish()
     assert counter.latest == 1
-    before = queries(gl)
+    before = living(gl)["query"]
     host = ctx.query(time=True, primitives=True)
     with host:
         with timer, counter:
@@ -113,12 +114,8 @@ def test_the_hosts_queries_go_on(
     assert host.primitives == 5
     assert timer.latest_ms is not None
     assert counter.latest == 1  # left out while the host counts
-    for name in queries(gl) - before:  # moderngl has no way to release a query
+    for name in living(gl)["query"] - before:  # moderngl has no way to release a query
         gl.glDeleteQueries(1, ctypes.addressof(ctypes.c_uint(name)))
-
-
-def queries(gl: GL) -> set[int]:
-    return {name for name in range(1, 1024) if gl.glIsQuery(name)}
 
 
 def test_begin_and_end_in_any_order(gl: GL, keep: Keep) -> None:
