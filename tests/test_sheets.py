@@ -11,8 +11,8 @@ from tools import collision_sheets, metar_sheet, showcase, sky_sheets, stills
 
 ROOT = Path(__file__).parent.parent
 KEPT = (
-    "collisions", "day", "halo", "lee", "metar", "puddles", "rainbow", "splashes", "storm",
-    "strike",
+    "collisions", "day", "halo", "lee", "metar", "puddles", "rainbow", "showcase", "splashes",
+    "storm", "strike",
 )  # fmt: skip
 
 
