@@ -10,7 +10,7 @@ from weather_ecs.frame import RippleData, SplashLook, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer, UniformBlock
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.impact_source import ImpactReader
-from weather_ecs.gpu.rain_pass import LARGEST_LIST, SHELTER_UNIT, RainPass
+from weather_ecs.gpu.rain_pass import SHELTER_UNIT, RainPass
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.splash_list import SplashList
 from weather_ecs.gpu.splash_texture import splash_texture
@@ -19,8 +19,8 @@ from weather_ecs.physics.splash import RESPONSE, acceleration
 
 MAX_WATERS = 8
 FRAMES_UNIT = 2
-# Drops of one container that are looked at on the feedback backend, as the list is bounded too.
-MOST_DROPS = 4 * LARGEST_LIST
+# Drops of one container that are looked at on the feedback backend: all of them, hit or not.
+MOST_DROPS = 65_536
 
 SPLASH = UniformBlock(
     "Splash",
