@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from tests.rain_frames import area, camera, frame, quality
+from tests.veil_stage import rays_of
 from weather_ecs.frame import FogData, FrameData, ViewData
 from weather_ecs.gpu.renderer import Renderer
 from weather_ecs.gpu.view_block import encode
@@ -36,16 +37,6 @@ def stored(t: np.ndarray | float, at: Camera) -> np.ndarray:
     p = at.projection
     depth = np.asarray(t, np.float64)
     return ((-p[2, 2] * depth + p[2, 3]) / depth) * 0.5 + 0.5
-
-
-def rays_of(at: Camera, size: tuple[int, int] = SIZE) -> np.ndarray:
-    """World rays through the middles of the pixels, (height, width, 3), 1 long along forward."""
-    width, height = size
-    x = (np.arange(width) + 0.5) / width * 2.0 - 1.0
-    y = (np.arange(height) + 0.5) / height * 2.0 - 1.0
-    p = at.projection
-    ex, ey = np.meshgrid((x + p[0, 2]) / p[0, 0], (y + p[1, 2]) / p[1, 1])
-    return np.stack([ex, ey, -np.ones_like(ex)], axis=-1) @ at.view[:3, :3]
 
 
 class Host:

@@ -10,6 +10,7 @@ import esper
 import numpy as np
 from numpy.typing import NDArray
 
+from demo_game.game import Game
 from demo_game.plays import SnowPlay
 from demo_game.skies import seconds
 from tools.stills import ALONG_THE_PATH, Stage, run, save_sheet
@@ -18,7 +19,7 @@ from weather_ecs.components import RainArea
 USAGE = "usage: python -m tools.showcase OUT.jpg [SCENE ...]"
 SNOWFALL = 60.0  # s of play
 SNOWED = 0.5  # share of it at which the picture is taken
-SUNSET = "2025-03-13T17:25:00Z"
+AFTERNOON, SUNSET = "2025-03-13T14:30:00Z", "2025-03-13T17:25:00Z"
 STORM = 0.0, -7000.0  # x, z in m, of its rain, which ends short of the path
 STRUCK = -80.0, 0.0, -900.0  # m
 
@@ -29,9 +30,7 @@ def opening(stage: Stage) -> Picture:
     """The game's first view: a shower ahead and its bow."""
     game = stage.opening()
     stage.settle(game)
-    picture = stage.still(game, frames=20)
-    game.close()
-    return picture
+    return _last(stage, game, 20)
 
 
 def heavy(stage: Stage) -> Picture:
@@ -40,9 +39,7 @@ def heavy(stage: Stage) -> Picture:
     stage.look(-2.6, -40.0, -19.0, -3.0)
     stage.settle(game, 60, 20)
     stage.still(game, seconds=150.0)
-    picture = stage.still(game, frames=30)
-    game.close()
-    return picture
+    return _last(stage, game, 30)
 
 
 def strike(stage: Stage) -> Picture:
@@ -72,33 +69,34 @@ def snow(stage: Stage) -> Picture:
         game.update(1.0 / 30.0)
         if k % 10 == 0:
             stage.still(game, frames=1)
-    picture = stage.still(game, frames=8)
-    game.close()
-    return picture
+    return _last(stage, game, 8)
 
 
 def sunset(stage: Stage) -> Picture:
     """Cumulus before a low sun."""
-    game = stage.game(preset="clear")
-    game.changer.choose_whole("fair_cumulus", 0.0)
-    game.sky.atmosphere.time = seconds(SUNSET)
     stage.look(-2.0, -36.0, 84.0, 12.0)
-    stage.still(game, seconds=60.0, frames=1)
-    stage.settle(game)
-    picture = stage.still(game, frames=20)
-    game.close()
-    return picture
+    return _fair(stage, SUNSET, 45)
 
 
 def above(stage: Stage) -> Picture:
     """Over the tops of cumulus."""
+    stage.face((0.0, 2600.0, 600.0), (400.0, 1900.0, -3000.0))
+    return _fair(stage, AFTERNOON, 90)
+
+
+def _fair(stage: Stage, time: str, drawn: int) -> Picture:
+    """Fair cumulus at a time, once so many frames have made the clouds' pictures."""
     game = stage.game(preset="clear")
     game.changer.choose_whole("fair_cumulus", 0.0)
-    game.sky.be("afternoon")
-    stage.face((0.0, 2600.0, 600.0), (400.0, 1900.0, -3000.0))
+    game.sky.atmosphere.time = seconds(time)
     stage.still(game, seconds=60.0, frames=1)
-    stage.settle(game, 90, 90)
-    picture = stage.still(game, frames=20)
+    stage.settle(game, drawn=drawn)
+    return _last(stage, game, 20)
+
+
+def _last(stage: Stage, game: Game, frames: int) -> Picture:
+    """A game's last picture, after so many frames."""
+    picture = stage.still(game, frames=frames)
     game.close()
     return picture
 

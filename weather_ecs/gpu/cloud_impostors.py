@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.gpu.cloud_atlas import Atlas, Tile
 from weather_ecs.gpu.cloud_bounds import picture_bounds, shared_octagon
-from weather_ecs.gpu.cloud_kept import KEPT_DTYPE
+from weather_ecs.gpu.cloud_kept import KEPT_DTYPE, state_of
 from weather_ecs.gpu.cloud_scene import CloudScene
 from weather_ecs.gpu.cloud_store import StoredShape
 
@@ -173,7 +173,7 @@ class Impostors:
         error = np.maximum(error, -np.log2(np.maximum(wanted / have, 1e-6)) / 2.2)
         error = np.maximum(error, 0.6 * (self._stamp - kept["stamp"]) + 0.5)
         error = np.maximum(error, np.where(kept["version"] != versions, 1.5, 0.0))
-        change = np.abs(_state(scene.clouds) - kept["state"]) / _STATE
+        change = np.abs(state_of(scene.clouds) - kept["state"]) / _STATE
         return np.maximum(error, change.max(axis=1))
 
     def place(
@@ -205,7 +205,7 @@ class Impostors:
         kept["pixels"][index], kept["need"][index] = scene.pixels[index], need
         kept["version"][index], kept["shape"][index] = shape.versions, shape.data.key
         kept["stamp"][index] = self._stamp
-        kept["state"][index] = _state(scene.clouds[index : index + 1])[0]
+        kept["state"][index] = state_of(scene.clouds[index : index + 1])[0]
         if kept["old_tile"][index, 2]:
             size, _ = self._shared(scene, np.array([index]))
             kept["share"][index] = 0.0
@@ -288,12 +288,6 @@ class Impostors:
     def release(self) -> None:
         """Give everything back; twice does no harm."""
         self.atlas.release()
-
-
-def _state(clouds: NDArray) -> NDArray[np.float64]:
-    lean = clouds["shear"]
-    columns = (clouds["growth"], clouds["mode"], clouds["darkness"], lean[:, 0], lean[:, 1])
-    return np.stack(columns, axis=1)
 
 
 def _side(pixels: float, largest: int) -> int:

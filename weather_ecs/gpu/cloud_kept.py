@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 KEPT_DTYPE = np.dtype(
     [
@@ -25,3 +26,10 @@ KEPT_DTYPE = np.dtype(
         ("large", "?"),  # and too large for a picture, not only waiting for one
     ]
 )
+
+
+def state_of(clouds: NDArray) -> NDArray[np.float64]:
+    """(n, 5) the column `state` of clouds as they are now."""
+    lean = clouds["shear"]
+    columns = (clouds["growth"], clouds["mode"], clouds["darkness"], lean[:, 0], lean[:, 1])
+    return np.stack(columns, axis=1)
