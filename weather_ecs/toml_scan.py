@@ -13,13 +13,15 @@ from typing import NamedTuple
 
 Path = tuple[str | int, ...]  # ("models", 0, "seeds", 2, "width")
 
-_KEY = r"[A-Za-z0-9_-]+|\"(?:[^\"\\\n]|\\[^\n])*+\"|'[^'\n]*+'"
-_KEYS = re.compile(rf"[ \t]*(?:{_KEY})(?:[ \t]*\.[ \t]*(?:{_KEY}))*+[ \t]*")
+# Groups repeat without "*+": Python 3.11 before .5 loses its place in them. Their alternatives
+# exclude each other, so that nothing matches in two ways and no time is lost either.
+_KEY = r"[A-Za-z0-9_-]+|\"(?:[^\"\\\n]|\\[^\n])*\"|'[^'\n]*+'"
+_KEYS = re.compile(rf"[ \t]*(?:{_KEY})(?:[ \t]*\.[ \t]*(?:{_KEY}))*[ \t]*")
 _ONE_KEY = re.compile(_KEY)
 _TOKEN = re.compile(
-    r'"""(?:[^"\\]|\\.|"{1,2}(?!"))*+"{3,5}'
-    r"|'''(?:[^']|'{1,2}(?!'))*+'{3,5}"
-    r'|"(?:[^"\\\n]|\\[^\n])*+"'
+    r'"""(?:[^"\\]|\\.|"{1,2}(?!"))*"{3,5}'
+    r"|'''(?:[^']|'{1,2}(?!'))*'{3,5}"
+    r'|"(?:[^"\\\n]|\\[^\n])*"'
     r"|'[^'\n]*+'"
     r"|\#[^\n]*|[\[\]{}\n]|[^\[\]{}\n\#\"' \t\r]+|[\"']",
     re.DOTALL,
