@@ -131,8 +131,9 @@ def test_the_shader_is_the_oracle(
     ctx: moderngl.Context, tmp_path: Path, strength: float, exponent: float
 ) -> None:
     shaders = resources.files("weather_ecs").joinpath("shaders")
-    text = shaders.joinpath("turbulence.glsl").read_text(encoding="utf-8")
-    (tmp_path / "turbulence.glsl").write_text(text, encoding="utf-8")
+    for name in ("turbulence.glsl", "wave.glsl"):
+        text = shaders.joinpath(name).read_text(encoding="utf-8")
+        (tmp_path / name).write_text(text, encoding="utf-8")
     (tmp_path / "probe.vert").write_text(PROBE, encoding="utf-8")
     of = flow(turbulence=strength, exponent=exponent, ground=1.0)
     p = np.concatenate([places(2000, -3.0, 20.0), places(500, 250.0, 400.0)]).astype("f4")

@@ -54,9 +54,11 @@ def flake_velocities(
 ) -> NDArray[np.float32]:
     """In still air, m/s, (n, 3)."""
     words = flake_words(ids)
+    often = np.stack([(words >> U(8)) & U(63), (words >> U(14)) & U(63)], axis=1).astype(F)
+    phase = np.stack([(words >> U(20)) & U(63), words >> U(26)], axis=1).astype(F)
     if flakes.paper:
-        bits = np.stack([words & U(1023), (words >> U(10)) & U(1023), (words >> U(20)) & U(1023)])
-        spread = (bits.T.astype(F) * F(2.0 / 1023.0) - F(1.0)) * np.array([0.25, 0.2, 0.25], F)
+        chance = np.stack([phase[:, 0], often[:, 0], phase[:, 1]], axis=1)
+        spread = (chance * F(2.0 / 63.0) - F(1.0)) * np.array([0.25, 0.2, 0.25], F)
         return (np.array([0.0, -1.0, 0.0], F) + spread).astype(F)
     diameter, wet = flake_diameters(quantile, law), F(law[2])
     x = np.clip((diameter - F(flakes.onset)) / F(0.4), F(0.0), F(1.0))
@@ -66,9 +68,7 @@ def flake_velocities(
     fall = single + (F(0.8) * (F(4.0) * diameter) ** F(0.16) - single) * clumped
     drop = F(9.65) - F(10.3) * np.exp(F(-0.6) * diameter)
     fall = fall + (drop - fall) * wet * wet
-    often = np.stack([(words >> U(8)) & U(63), (words >> U(14)) & U(63)], axis=1).astype(F)
-    phase = np.stack([(words >> U(20)) & U(63), words >> U(26)], axis=1).astype(F) * F(1.0 / 64.0)
-    turn = ((often + F(30.0)) * F(flakes.time) + phase) % F(1.0)
+    turn = ((often + F(30.0)) * F(flakes.time) + phase * F(1.0 / 64.0)) % F(1.0)
     swing = np.cos(F(6.2831853) * turn)
     sway = F(flakes.flutter) * (F(1.0) - wet)
     plates = np.where(habit == 0, F(0.4), F(0.2))

@@ -2,6 +2,7 @@
 // D: diameter in mm of the drop that it melts to. law = (slope in 1/mm, 1 - exp(-3.8 slope), share
 // that has melted, temperature at the ground). What a flake is by chance is in the bits of one word.
 #include "hash.glsl"
+#include "wave.glsl"
 #include <block:Snow>
 
 const float LIU_TONG = 1.0;  // snow_motion.w: the paper's flakes
@@ -31,7 +32,8 @@ int flake_habit(uint word, vec4 law)
 // 0 for a single crystal, 1 for a clump of many.
 float flake_clumped(float diameter)
 {
-    return smoothstep(snow_motion.z, snow_motion.z + 0.4, diameter);
+    float x = clamp((diameter - snow_motion.z) * 2.5, 0.0, 1.0);
+    return x * x * (3.0 - 2.0 * x);
 }
 
 // Diameter in mm as the flake is.
@@ -41,25 +43,31 @@ float flake_size(float diameter, int habit, vec4 law)
     return diameter * mix(mix(crystal, 4.0, flake_clumped(diameter)), 1.3, law.z);
 }
 
+// Of a clump, m/s: 0.8 (4 D)^0.16 to 1e-4, by roots, which cost less than a power.
+float aggregate_speed(float diameter)
+{
+    float root = sqrt(sqrt(diameter));
+    return 0.1896008 + root * (1.029535 + root * (0.05063818 * root - 0.271041));
+}
+
 // In still air, now, m/s: it falls and sways.
 vec3 flake_velocity(uint id, float quantile, vec4 law)
 {
     uint word = flake_word(id);
-    if (snow_motion.w == LIU_TONG) {
-        vec3 at = vec3(word & 1023u, (word >> 10u) & 1023u, (word >> 20u) & 1023u);
-        return vec3(0.0, -1.0, 0.0) + (at * (2.0 / 1023.0) - 1.0) * vec3(0.25, 0.2, 0.25);
-    }
+    vec2 often = vec2((word >> 8u) & 63u, (word >> 14u) & 63u);
+    vec2 phase = vec2((word >> 20u) & 63u, word >> 26u);
     float diameter = flake_diameter(quantile, law);
     float clumped = flake_clumped(diameter);
     int habit = flake_habit(word, law);
-    float fall = mix(habit == 2 ? 0.31 : 0.5, 0.8 * pow(4.0 * diameter, 0.16), clumped);
-    if (law.z > 0.0) fall += (9.65 - 10.3 * exp(-0.6 * diameter) - fall) * law.z * law.z;
+    float fall = mix(habit == 2 ? 0.31 : 0.5, aggregate_speed(diameter), clumped);
+    fall += (9.65 - 10.3 * exp(-0.6 * diameter) - fall) * law.z * law.z;
     // Two swings of frequencies of their own, 1/2 to 1 1/2 a second: a way that sways and spirals.
-    vec2 often = vec2(30.0) + vec2((word >> 8u) & 63u, (word >> 14u) & 63u);
-    vec2 phase = vec2((word >> 20u) & 63u, word >> 26u) * (1.0 / 64.0);
-    vec2 swing = cos(6.2831853 * fract(often * snow_motion.y + phase));
+    vec2 swing = wave((often + 30.0) * snow_motion.y + phase * (1.0 / 64.0));
     float sway = snow_motion.x * (1.0 - law.z);
     float side = sway * fall * mix(habit == 0 ? 0.4 : 0.2, 0.35, clumped);
-    return vec3(side * swing.x, -fall * (1.0 + 0.1 * sway * (2.0 * swing.x * swing.x - 1.0)),
-                side * swing.y);
+    float down = fall * (1.0 + 0.1 * sway * (2.0 * swing.x * swing.x - 1.0));
+    // The paper's by a choice at the end: a compiler for vectors works out both sides of a branch.
+    vec3 paper = vec3(phase.x, often.x, phase.y) * (2.0 / 63.0) - 1.0;
+    paper = vec3(0.0, -1.0, 0.0) + paper * vec3(0.25, 0.2, 0.25);
+    return snow_motion.w == LIU_TONG ? paper : vec3(side * swing.x, -down, side * swing.y);
 }

@@ -1,5 +1,6 @@
 // The air's velocity at a place: the wind by its profile, and three octaves of eddies in it that
 // are free of divergence; physics/turbulence.py is its oracle, symbol for symbol.
+#include "wave.glsl"
 #include <block:AirFlow>
 
 const float LOWEST_WIND = 0.03;    // m above the ground; below, the wind is that there
@@ -21,20 +22,6 @@ vec3 mean_velocity(vec3 p)
 {
     float height = clamp(p.y - air_shape.y, LOWEST_WIND, HIGHEST_WIND);
     return air_wind.xyz * exp2(air_shape.x * log2(height * air_wind.w));
-}
-
-// sin(2 pi x) up to a quarter turn, to 1e-6. Drops take dozens of sines, and where these are not in
-// hardware they are most of the work.
-vec3 quarter_sine(vec3 x)
-{
-    vec3 w = x * x;
-    return x * (6.2831640 + w * (-41.337142 + w * (81.340769 - 70.993430 * w)));
-}
-
-// cos(2 pi x).
-vec3 wave(vec3 x)
-{
-    return quarter_sine(0.25 - abs(x - floor(x + 0.5)));
 }
 
 vec3 eddies_of(int k, vec3 p, float height)
