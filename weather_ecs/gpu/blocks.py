@@ -190,6 +190,7 @@ class BlockBuffer:
     def __init__(
         self, ctx: moderngl.Context, block: UniformBlock, binding: int | None = None
     ) -> None:
+        self.ctx = ctx
         self.block = block
         self.binding = block.binding(ctx) if binding is None else binding
         self._bytes = bytearray(block.size)

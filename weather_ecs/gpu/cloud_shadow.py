@@ -15,7 +15,7 @@ WEATHER_CLOUD_SHADOW = UniformBlock(
     ("weather_shadow_frame", "vec4"),  # middle, x and z, m; 1 / side in 1/m; strength, 0: no map
     ("weather_shadow_sun", "vec4"),  # horizontal m per m of height, x and z; height of the map, m
 )
-UNIT = 13  # at least 16 are there in every stage
+UNIT = 11  # of its own, so that one shader may read all maps; 16 are there in every stage
 
 
 class CloudShadow:

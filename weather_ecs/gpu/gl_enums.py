@@ -107,6 +107,7 @@ TRIANGLES: Final = 0x0004
 TRIANGLE_STRIP: Final = 0x0005
 DEPTH_BUFFER_BIT: Final = 0x0100
 COLOR_BUFFER_BIT: Final = 0x4000
+INVALID_INDEX: Final = 0xFFFFFFFF
 
 # buffers: target, and the name its binding is read by
 ARRAY_BUFFER: Final = 0x8892

@@ -7,7 +7,7 @@ from typing import Any
 
 import moderngl
 
-from weather_ecs.gpu.host_program import use_maps
+from weather_ecs.gpu.host_program import set_uniform, use_maps
 
 Four = tuple[float, float, float, float]
 
@@ -25,8 +25,11 @@ class RippleMap:
     window: Four  # middle and half sizes of the part where real drops make rings, own axes, m
 
     def use(self, program: Any, unit: int = 0) -> None:
-        """Bind the texture to a unit, and set the program's uniforms."""
+        """Bind the texture to a unit, and set the program's uniforms.
+
+        The program is moderngl's, pyglet's, or the OpenGL name of one; InvalidValueError for
+        anything else.
+        """
         use_maps(program, unit, ripple_map=self.texture)
-        for name, value in (("ripple_place", self.place), ("ripple_scale", self.scale)):
-            if name in program:
-                program[name] = value
+        set_uniform(program, self.texture.ctx, "ripple_place", self.place)
+        set_uniform(program, self.texture.ctx, "ripple_scale", self.scale)
