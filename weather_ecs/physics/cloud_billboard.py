@@ -8,8 +8,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from weather_ecs.physics.vectors import cross
-
 Array = NDArray[np.float64]
 
 FADE = 0.3  # of the growth, over which one billboard comes or goes
@@ -33,12 +31,17 @@ def presence(growth: ArrayLike, mode: ArrayLike, order: ArrayLike) -> Array:
 
 
 def place(
-    p: Array, scale: float, mirror: float, heading: float, shear: tuple[float, float]
+    p: Array, scale: ArrayLike, mirror: ArrayLike, heading: ArrayLike, shear: ArrayLike
 ) -> Array:
-    """A place of the shape in the cloud, m from its centre: scaled, mirrored, turned, leant."""
+    """A place of the shape in the cloud, m from its centre: scaled, mirrored, turned, leant.
+
+    p: (..., 3); scale, mirror and heading: of all, or (...,) each; shear: (2,) or (2, ...).
+    """
     c, s = np.cos(heading), np.sin(heading)
-    x, y, z = (p[..., 0] * scale * mirror, p[..., 1] * scale, p[..., 2] * scale)
-    return np.stack([x * c + z * s + shear[0] * y, y, z * c - x * s + shear[1] * y], axis=-1)
+    lean, scale = np.asarray(shear), np.asarray(scale)
+    x, y, z = (p[..., 0] * (scale * mirror), p[..., 1] * scale, p[..., 2] * scale)
+    found = np.stack([x * c + z * s + lean[0] * y, y, z * c - x * s + lean[1] * y])
+    return np.moveaxis(found, 0, -1)
 
 
 def shown_size(size: Array, scale: float, present: ArrayLike) -> Array:
@@ -61,27 +64,41 @@ def corners(
     turns up towards one at its own height. size (n, 2); turn (n,) rad in the image's plane.
     outline: (k, 2), or (n, k, 2), of the image, -1 to 1.
     """
-    c, s = np.cos(turn)[:, None], np.sin(turn)[:, None]
-    flip = np.asarray(mirror, np.float64).reshape(-1, 1)
-    heading = np.asarray(heading, np.float64).reshape(-1, 1)
-    way = at / np.maximum(np.linalg.norm(at, axis=1, keepdims=True), 1e-3)
-    level = np.hypot(way[:, 0], way[:, 2])
-    flat = level > 1e-4
-    ahead = np.where(
-        flat[:, None], way[:, (0, 2)] / np.where(flat, level, 1.0)[:, None], (1.0, 0.0)
-    )
-    right = np.stack([-ahead[:, 1], np.zeros(len(at)), ahead[:, 0]], axis=1)
-    up = cross(right, way)
-    height = np.hypot(size[:, 1] * level, size[:, 0] * way[:, 1])
     outline = np.asarray(outline, np.float64)
-    cx, cy = outline[..., 0], outline[..., 1]
-    x, z = (cx * c - cy * s) * flip, cx * s + cy * c
-    wx = x * np.cos(heading) + z * np.sin(heading)
-    wz = z * np.cos(heading) - x * np.sin(heading)
-    across = (wx * right[:, :1] + wz * right[:, 2:]) * (0.5 * size[:, :1])
-    along = (wx * ahead[:, :1] + wz * ahead[:, 1:]) * (-0.5 * height[:, None])
-    found: Array = right[:, None] * across[..., None] + up[:, None] * along[..., None]
+    x, y = half_axes(at.T, size.T, turn, mirror, heading)
+    found: Array = outline[..., :1] * x.T[:, None] + outline[..., 1:] * y.T[:, None]
     return found
+
+
+def half_axes(
+    at: Array, size: Array, turn: Array, mirror: ArrayLike, heading: ArrayLike
+) -> tuple[Array, Array]:
+    """Half of an image's x and half of its y as they stand in the world, (3, n) each.
+
+    at: (3, n), size: (2, n), as `corners` has them; mirror: 1 or -1.
+    """
+    x, y, z = at
+    width, high = 0.5 * size[0], 0.5 * size[1]
+    over = 1.0 / np.maximum(np.sqrt(x * x + y * y + z * z), 1e-3)
+    wx, wy, wz = x * over, y * over, z * over
+    level = np.sqrt(wx * wx + wz * wz)
+    flat = level > 1e-4
+    over = 1.0 / np.where(flat, level, 1.0)
+    # Ahead is (ax, 0, az), right is (-az, 0, ax), up across both.
+    ax, az = np.where(flat, wx * over, 1.0), np.where(flat, wz * over, 0.0)
+    up = np.stack([-ax * wy, az * wz + ax * wx, -az * wy])
+    height = np.sqrt((high * level) ** 2 + (width * wy) ** 2)
+    # Turned with the image and, against that where it is mirrored, with the cloud.
+    angle = turn - np.asarray(mirror) * heading
+    c, s = np.cos(angle), np.sin(angle)
+    found = []
+    for px, pz in ((c * mirror, s), (-s * mirror, c)):
+        across, along = (pz * ax - px * az) * width, -(px * ax + pz * az) * height
+        axis = up * along
+        axis[0] -= az * across
+        axis[2] += ax * across
+        found.append(axis)
+    return found[0], found[1]
 
 
 def near_share(away: ArrayLike, width: ArrayLike) -> Array:
