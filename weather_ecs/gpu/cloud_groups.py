@@ -8,8 +8,6 @@ smaller one is painted on that first.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -21,26 +19,27 @@ from weather_ecs.gpu.cloud_images import SIZE
 from weather_ecs.gpu.cloud_scene import CloudScene
 from weather_ecs.gpu.cloud_seen import Seen
 from weather_ecs.gpu.cloud_sequence import BILLBOARDS, SOFT, Items
+from weather_ecs.gpu.cloud_shown import (
+    FACTORS,
+    LEAST,
+    OPEN,
+    SHOWN,
+    Floats,
+    Rectangle,
+    Shown,
+    Stretch,
+    size_of,
+)
 from weather_ecs.gpu.cloud_store import CloudStore
 
-FACTORS = (5, 4, 3, 2)  # pixels of the picture on a side of one of the canvas
 SHARP = 2.2  # pixels of the picture that a texel of an image may take before it is enlarged
 CRISP = 1.6  # and one of a cloud's picture, which shows finer things
 HEAVY = 0.8  # of the picture's pixels: a cloud with billboards over more, one over the other, is
 LENIENT = 2.6  # times as blurred as others
-MINOR, CROWDED = 0.1, 2.0  # of what is seen of a canvas, that may be twice as blurred; at most so
-SLIGHT = 0.2  # of such, that counts however little it is
 DEAR = 2.5  # what a pixel of billboards costs over one of pictures
-OPEN = 0.5  # of the picture, that the scene may be taken to leave free
-SHOWN = 0.5  # what a pixel of a canvas costs when it is shown, over one of a cloud
-LEAST = 0.08  # of the picture's pixels, that a canvas must save
 MOST = 6  # canvases in a draw
 SPARE = 1.02  # of a cloud's box
 MIDST = 0.6  # of a cloud's reach: as near it counts at least
-
-Floats = NDArray[np.float64]
-Rectangle = tuple[float, float, float, float]  # left, low, right, high, -1 to 1
-Stretch = tuple[int, int, int]  # from one to before the other, and a factor
 
 
 class Group(NamedTuple):
@@ -53,81 +52,6 @@ class Group(NamedTuple):
     rectangle: Rectangle
     beyond: bool  # what stands among the clouds
     inner: tuple[Group, ...] = ()  # of the same guard, which are shown on this one's canvas
-
-
-@dataclass(slots=True)
-class _Shown:
-    """What there is to draw, (n,) each in its order, areas in pictures."""
-
-    item: NDArray[np.intp]
-    enlarged: Floats
-    area: Floats
-    cost: Floats  # of it
-    low: Floats  # (n, 2)
-    high: Floats
-
-    def factor(self, first: int, last: int) -> int:
-        """The largest factor that all from `first` to before `last` bear; 1: none."""
-        for factor in FACTORS:
-            lost = self._lost(first, last, factor)
-            if not np.isinf(lost).any() and lost.sum() <= MINOR * self._seen(first, last):
-                return factor
-        return 1
-
-    def _lost(self, first: int, last: int, factor: int) -> Floats:
-        """Of each that is too sharp for a factor, the area, the more the sharper it is."""
-        over = factor / self.enlarged[first:last] - 1.0
-        lost: Floats = self.area[first:last] * np.where(over > 0.0, over + SLIGHT, 0.0)
-        lost[over > CROWDED - 1.0] = np.inf
-        return lost
-
-    def rectangle(self, first: int, last: int) -> Rectangle:
-        low, high = self.low[first:last].min(axis=0), self.high[first:last].max(axis=0)
-        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
-
-    def _seen(self, first: int, last: int) -> float:
-        """How much of the picture shows them."""
-        return min(float(self.area[first:last].sum()), _size(self.rectangle(first, last)))
-
-    def stretches(
-        self, first: int, last: int, factor: int, least: float
-    ) -> Iterator[tuple[int, int]]:
-        """Long ones that bear a factor and cost so much; what is too sharp for it is at no end."""
-        if self.cost[first:last].sum() <= least:
-            return
-        lost = self._lost(first, last, factor)
-        order = np.argsort(lost)
-        within = np.empty(len(lost), bool)
-        within[order] = np.cumsum(lost[order]) <= MINOR * self._seen(first, last)
-        for begin, end in _true(within):
-            good = np.flatnonzero(lost[begin:end] == 0.0)
-            if not len(good) or self.cost[first + begin : first + end].sum() <= least:
-                continue
-            begin, end = begin + int(good[0]), begin + int(good[-1]) + 1
-            if lost[begin:end].sum() <= MINOR * self._seen(first + begin, first + end):
-                yield first + begin, first + end
-                continue
-            for one, other in _true(lost[begin:end] == 0.0):
-                if self.cost[first + begin + one : first + begin + other].sum() > least:
-                    yield first + begin + one, first + begin + other
-
-    def worth(self, first: int, last: int, base: int) -> tuple[float, list[Stretch]]:
-        """What canvases save at a base of so many pixels, in pictures, and which they are."""
-        rate = OPEN if base == 1 else base**-2
-        saved, found = 0.0, list[Stretch]()
-        free = np.ones(last - first, bool)
-        for factor in FACTORS[: -1 if base == 1 else FACTORS.index(base)]:
-            for begin, end in self.stretches(first, last, factor, LEAST / rate):
-                cost = float(self.cost[begin:end].sum())
-                if not free[begin - first : end - first].all():
-                    continue
-                shown = SHOWN * _size(self.rectangle(begin, end))
-                won = cost * (rate - factor**-2) - shown * rate
-                if won > LEAST:
-                    saved += won
-                    found.append((begin, end, factor))
-                    free[begin - first : end - first] = False
-        return saved, sorted(found)
 
 
 def find_groups(
@@ -143,12 +67,13 @@ def find_groups(
     some = np.flatnonzero(items.ends > items.begins)
     if scene.parallel or not len(some):
         return found
-    which, bills = drawn[some], np.isin(items.kinds[some], (BILLBOARDS, SOFT))
+    which, kinds = drawn[some], items.kinds[some]
+    bills = (kinds == BILLBOARDS) | (kinds == SOFT)
     enlarged = _enlarged(scene, store, which, bills, tiles[some])
     enlarged[bills & (seen.area[some] > HEAVY * seen.whole)] *= LENIENT
     area = seen.area[some] / seen.whole
     cost = area * np.where(bills, DEAR, 1.0)
-    shown = _Shown(some, enlarged, area, cost, seen.low[some], seen.high[some])
+    shown = Shown(enlarged, area, cost, seen.low[some], seen.high[some])
     center, half = scene.center[which], SPARE * scene.half[which]
     # Billboards that lie level hang lower than what they stand for.
     lowest = np.where(bills, -np.inf, scene.lowest[which])
@@ -156,49 +81,44 @@ def find_groups(
     for side in (True, False):
         for begin, end in _true(beyond == side):
             for first, last in shown.stretches(begin, end, FACTORS[-1], LEAST / OPEN):
-                while first < last and OPEN * shown.cost[first:last].sum() > LEAST:
+                while first < last and OPEN * shown.cost(first, last) > LEAST:
                     held, plane = guard_of(*(part[first:last] for part in (center, half, lowest)))
                     if held:
                         groups = _groups_of(shown, first, first + held)
                         depth = depth_of(view, plane)
-                        found += [_put(each, depth, side) for each in groups]
+                        found += [_put(each, some, depth, side) for each in groups]
                     first += max(held, 1)
     return sorted(found)[:MOST]
 
 
-def _groups_of(shown: _Shown, first: int, last: int) -> list[Group]:
+def _groups_of(shown: Shown, first: int, last: int) -> list[Group]:
     """One for all, with others in it, or some, as it is worth; their guard is left open."""
     factor = shown.factor(first, last)
     apart, parts = shown.worth(first, last, 1)
     if factor > 1:
-        cost = float(shown.cost[first:last].sum())
-        rectangle = shown.rectangle(first, last)
+        cost, rectangle = shown.cost(first, last), shown.rectangle(first, last)
         inside, inner = shown.worth(first, last, factor)
-        together = cost * (OPEN - factor**-2) + inside - SHOWN * OPEN * _size(rectangle)
+        together = cost * (OPEN - factor**-2) + inside - SHOWN * OPEN * size_of(rectangle)
         if together > max(apart, LEAST):
             return [_group(shown, first, last, factor, inner)]
     return [_group(shown, *part) for part in parts]
 
 
 def _group(
-    shown: _Shown, first: int, last: int, factor: int, inner: list[Stretch] | None = None
+    shown: Shown, first: int, last: int, factor: int, inner: list[Stretch] | None = None
 ) -> Group:
-    items, depth = shown.item, (0.0, 0.0, 0.0)
     parts = tuple(_group(shown, *part) for part in (inner or ())[:MOST])
     rectangle = shown.rectangle(first, last)
-    return Group(int(items[first]), int(items[last - 1]) + 1, factor, depth, rectangle, True, parts)
+    return Group(first, last, factor, (0.0, 0.0, 0.0), rectangle, True, parts)
 
 
-def _put(group: Group, depth: tuple[float, float, float], beyond: bool) -> Group:
-    """Behind its guard, and with all in it."""
-    inner = tuple(_put(each, depth, beyond) for each in group.inner)
-    return group._replace(depth=depth, beyond=beyond, inner=inner)
-
-
-def _size(rectangle: Rectangle) -> float:
-    """In pictures."""
-    left, low, right, high = rectangle
-    return 0.25 * (right - left) * (high - low)
+def _put(
+    group: Group, some: NDArray[np.intp], depth: tuple[float, float, float], beyond: bool
+) -> Group:
+    """Among all items, where `some` are those that show; behind its guard, and with all in it."""
+    inner = tuple(_put(each, some, depth, beyond) for each in group.inner)
+    first, last = int(some[group.first]), int(some[group.last - 1]) + 1
+    return Group(first, last, group.factor, depth, group.rectangle, beyond, inner)
 
 
 def _true(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
