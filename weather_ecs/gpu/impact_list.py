@@ -16,7 +16,7 @@ SUNK_BYTES = 16  # a drop's place before the step, and which it is
 IMPACT_DTYPE = np.dtype(
     [
         ("position", "f4", 3),  # m
-        ("time", "f4"),  # s, the weather's clock
+        ("time", "f4"),  # s, the weather's clock in its epoch, see impact_times.py
         ("normal", "f4", 3),
         ("diameter", "f4"),  # mm
         ("speed", "f4"),  # m/s
@@ -36,14 +36,24 @@ class ImpactList:
     def __init__(self, ctx: moderngl.Context, capacity: int, step: int | None = None) -> None:
         self._ctx = ctx
         self.capacity = capacity
+        self.step = capacity if step is None else step
+        self.time: float | None = None  # s, the weather's clock at the last update
         words = np.zeros(12, np.uint32)
         words[9:11] = 1
         self.counts = ctx.buffer(data=words)
-        self.sunk = ctx.buffer(reserve=SUNK_BYTES * (capacity if step is None else step))
+        self.sunk = ctx.buffer(reserve=SUNK_BYTES * self.step)
+        self.records = ctx.buffer(data=self._empty())
+
+    def _empty(self) -> NDArray:
         # A time far back, so that what was never written is old.
-        empty = np.zeros(capacity, IMPACT_DTYPE)
+        empty = np.zeros(self.capacity, IMPACT_DTYPE)
         empty["time"] = -1e6
-        self.records = ctx.buffer(data=empty)
+        return empty
+
+    def clear(self) -> None:
+        """Forget what has been hit."""
+        self.records.orphan()
+        self.records.write(self._empty())
 
     def begin_frame(self) -> None:
         """From here on this frame's room is counted; nothing is read back."""

@@ -18,7 +18,7 @@ RAIN_STEP = UniformBlock(
     ("rain_seed", "uint"),
     ("rain_count", "uint"),
     ("rain_fresh", "uint"),  # drops from here on begin anew
-    ("rain_time", "float"),  # s, the weather's clock at the end of the step
+    ("rain_time", "float"),  # s, the weather's clock at the end of the step, in its epoch
     ("impact_capacity", "uint"),  # of the list of impacts; 0: there is none
 )
 STEP = RAIN_STEP.run(*[field.name for field in RAIN_STEP.fields])
@@ -33,7 +33,9 @@ RAIN_VIEW = UniformBlock(
     ("view_size", "vec4"),  # pixels, width and height; depth of the near and far plane
     ("view_origin", "vec4"),  # pixels, lower left corner of the viewport
     ("view_depth", "vec4"),  # depth = y / (ndc + x)
-    ("view_time", "vec4"),  # s, the weather's clock; s, of it since the last view
+    # s, the weather's clock in its epoch, see impact_times.py; of it since the last view; in the
+    # time after which all flakes have turned as they had
+    ("view_time", "vec4"),
     ("sun_direction", "vec4"),
     ("sun_color", "vec4"),
     ("drop_color", "vec4"),  # what a drop shows of the sky, linear

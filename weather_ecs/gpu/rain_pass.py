@@ -12,6 +12,7 @@ from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.compute_order import ComputeOrder
 from weather_ecs.gpu.drop_set import DropSet
 from weather_ecs.gpu.impact_list import ImpactList
+from weather_ecs.gpu.impact_times import ImpactTimes, in_epoch
 from weather_ecs.gpu.kind_programs import MOTION_UNIT as MOTION_UNIT
 from weather_ecs.gpu.kind_programs import SHELTER_UNIT as SHELTER_UNIT
 from weather_ecs.gpu.kind_programs import KindPrograms, draw_name, step_name
@@ -71,6 +72,7 @@ class RainPass:
         if self._find is not None:
             self._find["shelter_map"], self._find["shelter_motion"] = SHELTER_UNIT, MOTION_UNIT
         self._order = ComputeOrder(ctx)
+        self._times = ImpactTimes(shaders, self._order)
         self._step_block = BlockBuffer(ctx, RAIN_STEP)
         self._air = AirBlock(ctx)
         self._steady = False  # the air of this draw
@@ -118,8 +120,10 @@ class RainPass:
             seen = self._observed[view.key] = _Observed({}, None)
         if self._lists:
             self._make_room(seen, view)
-        if seen.impacts is not None and sheltered:
-            seen.impacts.begin_frame()
+        if seen.impacts is not None:
+            self._times.follow(seen.impacts, view.frame.time)
+            if sheltered:
+                seen.impacts.begin_frame()
         self._step_block.bind()
         self._draw_block.bind()
         self._steady = self._air.use(view)
@@ -141,15 +145,16 @@ class RainPass:
 
     def _make_room(self, seen: _Observed, view: ViewData) -> None:
         """A list of impacts that grows with the drops; of very many, it holds the newest."""
-        wanted = step = self._capacity
-        if wanted is None:
-            drops = max((len(container.births) for container in view.containers), default=0)
-            wanted = min(max(SMALLEST_LIST, drops // 4), LARGEST_LIST)
-            # At 10 m/s a sixteenth of the drops comes down in a step of 0.1 s, of 16 m or higher.
-            step = min(wanted, max(drops // 16, 1024))
-        if seen.impacts is None or seen.impacts.capacity < wanted:
-            if seen.impacts is not None:
-                seen.impacts.release()
+        drops = max((len(container.births) for container in view.containers), default=0)
+        wanted = min(max(SMALLEST_LIST, drops // 4), LARGEST_LIST)
+        # At 10 m/s a sixteenth of the drops comes down in a step of 0.1 s, of 16 m or higher.
+        step = min(wanted, max(drops // 16, 1024))
+        if self._capacity is not None:
+            wanted = step = self._capacity
+        known = seen.impacts
+        if known is None or known.capacity < wanted or known.step < step:
+            if known is not None:
+                known.release()
             seen.impacts = ImpactList(self._ctx, wanted, step)
 
     def _move(
@@ -173,7 +178,7 @@ class RainPass:
             seed & 0xFFFFFFFF,
             count,
             0 if drops.placed is None else drops.alive,
-            view.frame.time,
+            in_epoch(view.frame.time),
             impacts.capacity if impacts is not None else 0,
         )
         self._step_block.upload()

@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 from weather_ecs.frame import SkyLight, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.flash import HAZE, VEIL, Flash, flash_of
+from weather_ecs.gpu.impact_times import in_epoch
 from weather_ecs.gpu.rain_blocks import MAX_LIGHTS, RAIN_VIEW
 from weather_ecs.physics.vectors import product_columns
 
 ENCODED = 1.0 / 2.2
+TURNING = 2.0 / 0.0095  # s, after which every flake has come round; see shaders/flake.vert
 LOG2_E = 1.0 / math.log(2.0)  # shaders raise 2 to a power, which costs them less than e
 
 # What another camera or another time changes.
@@ -86,7 +88,7 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
     x, y, width, height = viewport
     seen, p = view.view.tolist(), view.projection.tolist()
     pixels = 0.5 * height * p[1][1]
-    look = view.frame.look
+    look, time = view.frame.look, view.frame.time
     (px, py, pz), (vx, vy, vz) = view.position, view.velocity
     speed = math.hypot(vx, vy, vz)
     slow = min(look.fastest / speed, 1.0) if speed > 0.0 else 1.0
@@ -96,7 +98,8 @@ def fill_view(block: BlockBuffer, view: ViewData, viewport: tuple[int, int, int,
         *clip_columns(view),
         *(px, py, pz, pixels, vx * slow, vy * slow, vz * slow, look.exposure),
         *(-nx, -ny, -nz, 0.0, width, height, 0.0, 0.0, x, y, 0.0, 0.0),
-        *(p[2][2], p[2][3], 0.0, 0.0, view.frame.time, view.dt, 0.0, 0.0),
+        *(p[2][2], p[2][3], 0.0, 0.0),
+        *(in_epoch(time), view.dt, time % TURNING, 0.0),
     )
     flash = flash_of(view.frame, view.position)
     # Light stays the same for many frames, but for lightning.

@@ -110,7 +110,7 @@ void main()
     tilt = max(tilt, 0.3);
     ivec2 layer = flake_layer(word, diameter, habit, drop_law.z);
     float radius = 0.5 * shown;
-    float turn = float(word >> 26u) * 0.015625 + view_time.x * (float((word >> 3u) & 31u) - 15.5) * 0.0095;
+    float turn = float(word >> 26u) * 0.015625 + view_time.z * (float((word >> 3u) & 31u) - 15.5) * 0.0095;
     vec2 turning = normalize(turned(turn));
 #ifdef FAR
     // The smallest have no shape: discs of what one sees of them.
