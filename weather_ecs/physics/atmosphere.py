@@ -4,8 +4,9 @@ After S. Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering
 (Computer Graphics Forum 39, 2020): single scattering marched along the view ray, the higher orders
 from a table of what arrives from all round. The air is E. Bruneton's ("A Qualitative and
 Quantitative Evaluation of 8 Clear Sky Models", 2017): Rayleigh scattering, ozone, and a haze whose
-depth is the turbidity's. Everything is linear RGB of a sun that gives 1 outside the air; lengths
-are km here. Radiance is per steradian of that 1.
+depth is the turbidity's. All is reckoned at three wavelengths, of which tables hold the linear RGB
+(`physics.spectrum`), of a sun that gives 1 outside the air; lengths are km here. Radiance is per
+steradian of that 1.
 
 A table has no time and no azimuth of its own: rows go by the sine of the elevation, v = sqrt(sine),
 columns by the angle D from the sun's azimuth, u = sin(D / 2).
@@ -22,17 +23,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from weather_ecs.physics.checks import FloatArray, floats, number
+from weather_ecs.physics.spectrum import seen
 
 GROUND, TOP = 6360.0, 6460.0  # km, radii
 EYE = GROUND + 0.2  # km, where the tables' rays begin
-# At 630, 540 and 450 nm, the middles of what the three colours see: at the usual 680 nm ozone
-# takes too little of the red, and the sky of twilight turns purple. Bodhaine and others 1999;
-# Serdyuchenko and others 2014, for 300 Dobson units.
-RAYLEIGH = np.array([7.0e-3, 13.1e-3, 27.9e-3])  # 1/km at the ground
-OZONE = np.array([2.15e-3, 1.60e-3, 0.10e-3])  # 1/km at 25 km
+# At `spectrum.WAVELENGTHS`. Bodhaine and others 1999; Serdyuchenko and others 2014, for 300 Dobson
+# units.
+RAYLEIGH = np.array([7.80e-3, 13.08e-3, 27.64e-3])  # 1/km at the ground
+OZONE = np.array([2.22e-3, 1.66e-3, 0.12e-3])  # 1/km at 25 km
 DEPTH = 0.0972  # Rayleigh's optical depth at 550 nm (Bodhaine and others 1999)
 RAYLEIGH_HEIGHT, HAZE_HEIGHT = 8.0, 1.2  # km, over which they thin out by e
-HAZE_COLOR = np.array([0.84, 1.02, 1.30])  # Angstrom's exponent 1.3, over 550 nm
+HAZE_COLOR = np.array([0.87, 1.02, 1.30])  # Angstrom's exponent 1.3, over 550 nm
 HAZE_ALBEDO = 0.93  # share of what haze takes that it scatters
 FORWARD = 0.76  # g of the haze's phase function
 ALBEDO = 0.2  # of the ground
@@ -72,7 +73,7 @@ def haze_phase(cosine: ArrayLike) -> FloatArray:
 def transmittance(altitude: ArrayLike, turbidity: float = 2.2) -> FloatArray:
     """Share of the light from a true altitude in degrees that reaches the ground, (..., 3).
 
-    0 below the horizon, where half a degree of the sun's disc fades out.
+    At the three wavelengths. 0 below the horizon, where half a degree of the sun's disc fades out.
     """
     sine = np.sin(np.radians(floats("altitude", altitude, -90.0, 90.0)))
     return _through(np.full(sine.shape, EYE), sine, _checked(turbidity))
@@ -86,7 +87,9 @@ def sky_table(altitude: float, turbidity: float = 2.2) -> SkyTable:
 
 
 def sky_part(altitude: float, turbidity: float, part: int) -> tuple[FloatArray, FloatArray]:
-    """(air, haze) of one of the PARTS of a table, some rows of it: who has time makes it so."""
+    """(air, haze) of one of the PARTS of a table, at the three wavelengths, some rows of it: who
+    has time makes it so.
+    """
     h = math.radians(altitude)
     rows = slice(part * ROWS // PARTS, (part + 1) * ROWS // PARTS)
     up, away = (angle[rows] for angle in table_directions())
@@ -101,7 +104,7 @@ def sky_of_parts(
     """The table of all its parts, in order."""
     air, haze = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
     sine = np.array(math.sin(math.radians(altitude)))
-    return SkyTable(air, haze, _through(np.array(EYE), sine, turbidity))
+    return SkyTable(seen(air), seen(haze), seen(_through(np.array(EYE), sine, turbidity)))
 
 
 def table_directions() -> tuple[FloatArray, FloatArray]:

@@ -34,6 +34,7 @@ from weather_ecs.physics.illuminance import (
     moon_phase_factor,
     sun_illuminance,
 )
+from weather_ecs.physics.spectrum import seen
 
 SUN_LUX = 133_300.0  # lx, outside the air (Darula, Kittler and Gueymard 2005)
 CLEAR = 2.2  # turbidity of the air that the scale is for
@@ -100,7 +101,7 @@ def clear_sky(altitude: float, turbidity: float = CLEAR) -> ClearSky:
         high, high_level = _knot(i + 1, turbid)
     # Brightness goes by powers in twilight; what is left to interpolate is the shape.
     level = low_level ** (1.0 - share) * high_level**share
-    sun = transmittance(altitude, turbid)
+    sun = seen(transmittance(altitude, turbid))
     if altitude < 6.0:
         level *= (_diffuse_lux(altitude, sun) / (level * SUN_LUX)) ** min(1.0 - altitude / 6.0, 1.0)
     near, far = level * (1.0 - share) / low_level, level * share / high_level
