@@ -37,7 +37,7 @@ SHOWER_SHARE = 0.6  # of the rain rate of the large one
 SHOWER_DISTANCE = 420.0  # m that its course keeps from the place, to the left of the wind
 SHOWER_COURSE = 600.0  # m before and behind there, then it begins anew
 SHOWER_BEFORE = -250.0  # m along its course, where it is when the game begins
-DROPS_BRIGHT, FLAKES_BRIGHT = 1.6, 1.7  # in open air; darker under the cloud they fall from
+DROPS_BRIGHT, FLAKES_BRIGHT = 1.6, 2.5  # in open air; darker under the cloud they fall from
 SETTLING = 8.0  # snow covers the ground within a minute or two
 POND_RIM = 1.1  # of its radii, as far as its wobbling shore reaches
 # Open land on a gusty day; the ground of the place is about 0 m.
