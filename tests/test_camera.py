@@ -82,6 +82,14 @@ def test_any_affine_view_is_inverted(numbers: list[float]) -> None:
     assert np.allclose(found, expected, rtol=1e-9, atol=1e-9 * np.linalg.cond(view))
 
 
-def test_a_view_that_is_not_affine_is_inverted_too() -> None:
+def test_what_is_no_view_is_told_apart() -> None:
+    view, projection = look_from((3.0, 4.0, 5.0), 1.0), perspective()
+    for wrong in (projection, view.T, view @ projection, projection @ view):
+        with pytest.raises(InvalidValueError, match=r"^view: got (?s:.*)neither transposed nor"):
+            camera_from(wrong, projection)
+    assert camera_from(view + 1e-9, projection).position == pytest.approx((3.0, 4.0, 5.0))
+
+
+def test_a_view_with_a_scale_of_its_own_is_inverted_too() -> None:
     view = look_from((3.0, 4.0, 5.0), 1.0, 0.2) * 2.0
     assert camera_from(view, perspective()).position == pytest.approx((1.5, 2.0, 2.5))

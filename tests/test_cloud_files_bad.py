@@ -114,6 +114,13 @@ def test_a_file_of_one_model_has_one(tmp_path):
             load_cloud_model(path)
 
 
+def test_a_save_that_cannot_be_names_the_file(tmp_path):
+    path = tmp_path / "no folder" / "clouds.toml"
+    with pytest.raises(FileNotFoundError) as caught:
+        save_clouds(path, CloudFile())
+    assert caught.value.filename == str(path)
+
+
 def test_a_failed_save_leaves_the_old_file(tmp_path, monkeypatch):
     path = tmp_path / "clouds.toml"
     path.write_text("mine", encoding="utf-8")

@@ -55,7 +55,7 @@ def test_names_in_any_spelling(spelling):
 @pytest.mark.parametrize("name", ["", "snow", "lightsnow", 3, None])
 def test_a_name_that_is_none(name):
     assert name not in PRESETS
-    with pytest.raises(KeyError):
+    with pytest.raises(KeyError, match=r"no preset .*there are clear, drizzle"):
         PRESETS[name]
     with pytest.raises(InvalidValueError, match="heavy_snow"):
         find(name)

@@ -16,7 +16,9 @@ from weather_ecs.quality import (
     LEVELS,
     LOWEST_BUDGET,
     QUALITIES,
+    STILL,
     AutoQuality,
+    FrameCost,
     QualitySettings,
     settings_for,
 )
@@ -224,3 +226,14 @@ def test_any_figures_keep_the_budget_in_its_range(trace):
 def test_the_same_figures_give_the_same_budget():
     a, b = (run(AutoQuality(), machine(70.0, 9.0, noise=0.3), 500) for _ in range(2))
     assert a == b
+
+
+def test_a_game_that_never_calls_process_is_told_once(caplog):
+    still, moving = FrameCost(), FrameCost()
+    moving.processed()
+    for draw in range(3 * STILL):
+        assert not caplog.records or draw >= STILL
+        still.begin(draw / 60)
+        moving.begin(draw / 60)
+    (record,) = caplog.records
+    assert record.name == "weather_ecs" and "esper.process(dt) never ran" in record.getMessage()

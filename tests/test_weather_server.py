@@ -85,7 +85,7 @@ def test_bad_arguments_leave_nothing_behind(arguments, field):
 
 def test_a_world_has_one_weather():
     first = Weather()
-    with pytest.raises(WeatherError, match="has a weather already"):
+    with pytest.raises(WeatherError, match="has a weather already: close"):
         Weather()
     assert esper.get_processor(WeatherProcessor) is first._processor
     first.close()

@@ -18,7 +18,7 @@ from pyglet import gl
 import gl_state
 from weather_ecs import Weather
 from weather_ecs.components import RainArea
-from weather_ecs.errors import ClosedError, WeatherError
+from weather_ecs.errors import ClosedError, ContextError, WeatherError
 from window_host import camera, make_weather, screenshot
 from xvfb import wait_until
 
@@ -97,12 +97,22 @@ def case_closed_window() -> None:
     view, projection = camera()
     window.close()
     esper.process(1 / 60)
+    weather.draw(view, projection)  # does nothing
+    for ask in (weather.air, weather.wetness):
+        try:
+            ask()
+        except ContextError as error:
+            assert str(error) == "the window is closed"
+        else:
+            raise AssertionError("maps of a window that is closed")
+    weather.close()
+    weather.close()
     try:
-        weather.draw(view, projection)
-    except WeatherError as error:
-        assert str(error)
-    weather.close()
-    weather.close()
+        Weather(window)
+    except ContextError as error:
+        assert str(error) == "the window is closed"
+    else:
+        raise AssertionError("weather on a window that is closed")
 
 
 def case_recreated_window() -> None:

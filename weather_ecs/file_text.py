@@ -93,9 +93,11 @@ def write_text(name: str, text: str) -> None:
         if before is not None:
             shutil.copymode(target, aside)
         os.replace(aside, target)
-    except BaseException:
+    except BaseException as error:
         with suppress(OSError):
             aside.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.filename == str(aside):
+            error.filename = name  # the one that is known
         raise
     _sync_folder(target.parent)
 

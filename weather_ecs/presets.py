@@ -10,7 +10,7 @@ from weather_ecs.cloud_presets import SKIES as SKIES
 from weather_ecs.cloud_presets import cloud_model as cloud_model
 from weather_ecs.cloud_presets import sky as sky
 from weather_ecs.components import Air, Fog, RainArea, Wind
-from weather_ecs.errors import InvalidValueError
+from weather_ecs.errors import InvalidValueError, shorten
 from weather_ecs.weathers import WEATHERS as WEATHERS  # whole ones, for Weather.change_to
 from weather_ecs.weathers import CloudBank as CloudBank
 from weather_ecs.weathers import WholeWeather as WholeWeather
@@ -72,7 +72,7 @@ class _Presets(dict[str, Preset]):
     def __missing__(self, name: str) -> Preset:
         known = self.get(_plain(name)) if isinstance(name, str) else None
         if known is None:
-            raise KeyError(name)
+            raise KeyError(f"no preset {shorten(name)}; there are {', '.join(self)}")
         return known
 
     def __contains__(self, name: object) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 from collections import deque
 from dataclasses import dataclass, replace
@@ -13,6 +14,8 @@ from weather_ecs.errors import InvalidValueError
 QUALITIES = ("low", "medium", "high", "ultra", "auto")
 LOWEST_BUDGET = 0.05  # of the greatest quality: 6000 drops, as many as low has
 _FIRST_BUDGET = 14_000 / 120_000  # auto starts as medium
+STILL = 120  # draws, after which a weather that never goes on is an oversight
+_log = logging.getLogger("weather_ecs")
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,10 +82,11 @@ def _checked(own: QualitySettings) -> QualitySettings:
 class FrameCost:
     """Adds up the draws of a frame; a frame lasts from the first draw after a process to the next.
 
-    Times in ms, the clock's readings in s.
+    Times in ms, the clock's readings in s. One line in the log says so where no process ever comes.
     """
 
     def __init__(self) -> None:
+        self._still: int | None = 0  # draws before the first process; None from then on
         self._began: float | None = None
         self._processed = True
         self._gpu = self._cpu = 0.0
@@ -91,9 +95,14 @@ class FrameCost:
     def processed(self) -> None:
         """The game has moved on: the next draw begins a frame."""
         self._processed = True
+        self._still = None
 
     def begin(self, now: float) -> tuple[float, float, float] | None:
         """At every draw: frame, GPU and CPU time of a frame that is now over, if rain was in it."""
+        if self._still is not None:
+            self._still += 1
+            if self._still == STILL:
+                _log.warning("drawn %d times, but esper.process(dt) never ran in its world", STILL)
         if not self._processed:
             return None
         figures = None

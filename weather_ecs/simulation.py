@@ -44,7 +44,8 @@ class Simulation:
         self._closed = True  # until `_begin`, there is nothing to close
         self._state = WeatherState(_check_seed("seed", seed), ModelBook(find_model))
         if esper.get_processor(WeatherProcessor) is not None:
-            raise WeatherError(f"the esper world {esper.current_world!r} has a weather already")
+            here = f"the esper world {esper.current_world!r} has a weather already"
+            raise WeatherError(f"{here}: close() that one first, or switch to another world")
         self._world = esper.current_world
         self._stats = Stats()
         self._observer: tuple[float, float, float] | None = None  # m, of the last draw

@@ -296,4 +296,4 @@ class Weather(Contents):
         self._check_open()
         check_observer(observer)
         if self._window is None and self._context is None:
-            raise ContextError("this weather was made with neither window nor context to draw to")
+            raise ContextError("made with neither window nor context: Weather(window) is to draw")

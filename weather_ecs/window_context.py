@@ -12,7 +12,7 @@ def check_window(window: Any) -> None:
     """Raises InvalidValueError for what is no window, ContextError for one that is closed."""
     if window is None:
         return
-    if not hasattr(window, "switch_to"):
+    if isinstance(window, type) or not hasattr(window, "switch_to"):
         raise InvalidValueError("window", window, "a pyglet window or None")
     if window.context is None:
         raise ContextError("the window is closed")
@@ -39,6 +39,8 @@ class current:  # no generator: that takes three times as long, in every draw
         window = self._window
         if window is None:
             return
+        if window.context is None:
+            raise ContextError("the window is closed")
         gl = sys.modules.get("pyglet.gl")  # where there is a window, pyglet has loaded it
         before = None if gl is None else gl.current_context
         if before is not window.context:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.errors import InvalidValueError
 
+VIEW = "a view for column vectors, last row 0, 0, 0, 1: neither transposed nor the projection"
 LARGEST = 1e15  # so that a product of two matrices fits into the shaders' 32 bits
 
 
@@ -55,7 +56,8 @@ def wrap_angle(angle: float) -> float:
 def camera_from(view: Any, projection: Any) -> Camera:
     """Camera of a view matrix (world to eye) and a projection matrix.
 
-    Raises InvalidValueError for a wrong shape, numbers that are not finite, or a singular matrix.
+    Raises InvalidValueError for a wrong shape, numbers that are not finite, a singular matrix, or a
+    view that is a projection or transposed.
     """
     given = {"view": view, "projection": projection}
     v, p = [matrix(value, name).tobytes() for name, value in given.items()]
@@ -82,6 +84,9 @@ def _camera(view: bytes, projection: bytes) -> Camera:
         # Of so few numbers numpy's sum takes longer. Of NaN the comparison is false.
         if not sum(map(abs, array.ravel().tolist())) <= LARGEST:
             raise _UnusableError(name, f"finite numbers, together at most {LARGEST:g}")
+    *across, own = v[3].tolist()
+    if max(map(abs, across)) > 1e-6 * abs(own):  # a projection's, or a transposed view's
+        raise _UnusableError("view", VIEW)
     try:
         i = _inverse(v)
         singular = _singular(projection)
