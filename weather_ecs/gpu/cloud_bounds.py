@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from weather_ecs.gpu.cloud_images import hulls
 from weather_ecs.gpu.cloud_scene import CloudScene
 from weather_ecs.gpu.cloud_store import StoredShape
-from weather_ecs.physics.cloud_billboard import corners, place, presence, shown_size
+from weather_ecs.physics.cloud_billboard import half_axes, place, presence, shown_size
 from weather_ecs.physics.cloud_view import picture_axes
+from weather_ecs.physics.vectors import cross
 
 Vector = NDArray[np.float64]
 
@@ -19,6 +20,10 @@ Vector = NDArray[np.float64]
 MARGIN = 1.01  # of what is shown
 WIDEST = 4.0  # times a picture's size, that is drawn for its predecessor's sake
 FAINT = 0.004  # opacity of a billboard that does not show
+# (1, 8, 2) of a rectangle's corners, each twice; which of their numbers the cuts are factors on.
+_CORNERS = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)], np.float64).repeat(2, axis=0)[None]
+_QUARTER, _CUT = np.arange(8) // 2, (np.arange(8), np.array([1, 0] * 4))
+_DIAGONALS = np.array([(1.0, -1.0, -1.0, 1.0), (1.0, 1.0, -1.0, -1.0)])
 
 
 class PictureBounds(NamedTuple):
@@ -43,19 +48,25 @@ def picture_bounds(scene: CloudScene, shape: StoredShape, index: int) -> Picture
     if not len(shown):
         shown = np.array([int(np.argmax(there))])
     bills, there = bills[shown], there[shown]
-    at = place(shape.position[shown].astype(np.float64), scale, mirror, heading, shear)
-    at = at + scene.center[index]
-    size = shown_size(bills["size"].astype(np.float64), scale, there)
-    outline = hulls()[bills["image"].astype(np.intp)]
-    offsets = corners(at, size, bills["turn"].astype(np.float64), mirror, heading, outline)
-    rim = (at[:, None] + offsets).reshape(-1, 3) @ np.stack([right, up, way], axis=1)
-    x, y = (rim[:, :2] / np.maximum(rim[:, 2:], 1e-3)).T
-    middle = 0.5 * float(x.min() + x.max()), 0.5 * float(y.min() + y.max())
-    half = tuple(0.5 * MARGIN * max(float(np.ptp(part)), 1e-6) for part in (x, y))
-    u, v = (x - middle[0]) / half[0], (y - middle[1]) / half[1]
+    at = place(shape.position[shown].astype(np.float64), scale, mirror, heading, shear).T
+    at += scene.center[index][:, None]
+    size = shown_size(bills["size"].astype(np.float64), scale, there).T
+    across, along = half_axes(at, size, bills["turn"].astype(np.float64), mirror, heading)
+    axes = np.stack([right, up, way])
+    # Of the corners of all octagons, (3, 8, n): to the right, up, and ahead.
+    outline = hulls()[bills["image"].astype(np.intp)].T
+    rim = outline[0] * (axes @ across)[:, None] + outline[1] * (axes @ along)[:, None]
+    rim += (axes @ at)[:, None]
+    seen = rim[:2].reshape(2, -1) / np.maximum(rim[2], 1e-3).reshape(-1)
+    low, high = seen.min(axis=1), seen.max(axis=1)
+    middle, half = 0.5 * (low + high), 0.5 * MARGIN * np.maximum(high - low, 1e-6)
+    u, v = (seen - middle[:, None]) / half[:, None]
+    both, other = u + v, u - v
     spare = 2.0 * (MARGIN - 1.0)
-    a, b, c, d = (min(float(part.max()) + spare, 2.0) for part in (u + v, v - u, -u - v, u - v))
-    return PictureBounds((way, right, up), middle, (half[0], half[1]), (a, b, c, d))
+    ends = (both.max(), -other.min(), -both.min(), other.max())
+    a, b, c, d = (min(float(end) + spare, 2.0) for end in ends)
+    (x, y), (wide, high) = middle.tolist(), half.tolist()
+    return PictureBounds((way, right, up), (x, y), (wide, high), (a, b, c, d))
 
 
 def shared_octagon(
@@ -67,29 +78,21 @@ def shared_octagon(
     many times the picture's size, (m,), infinite where it is too much or they cannot be drawn in
     one plane, and the cuts of that, (m, 4).
     """
-    middle, wide, high = quads[:, 0], quads[:, 1], quads[:, 2]
-    rim = _octagon(old_cuts)
-    rim = old_quads[:, :1] + rim[..., :1] * old_quads[:, 1:2] + rim[..., 1:] * old_quads[:, 2:]
-    normal = np.cross(wide, high)
-    depth = np.einsum("mki,mi->mk", rim, normal)
-    there = np.einsum("mi,mi->m", middle, normal)[:, None]
-    fits = (depth * np.sign(there) > np.abs(there) / WIDEST).all(axis=1)
-    on = rim * (there / np.where(fits[:, None], depth, 1.0))[..., None] - middle[:, None]
-    across = [
-        np.einsum("mki,mi->mk", on, axis) / np.maximum((axis * axis).sum(axis=1), 1e-12)[:, None]
-        for axis in (wide, high)
-    ]
-    at = np.concatenate([np.stack(across, axis=-1), _octagon(cuts)], axis=1)
+    middle, axes = quads[:, :1], quads[:, 1:]
+    rim = old_quads[:, :1] + _octagon(old_cuts) @ old_quads[:, 1:]
+    normal = cross(axes[:, 0], axes[:, 1])[..., None]
+    depth, there = rim @ normal, middle @ normal
+    fits = (depth * np.sign(there) > np.abs(there) / WIDEST).all(axis=1)[:, 0]
+    on = rim * (there / np.where(fits[:, None, None], depth, 1.0)) - middle
+    dual = axes / np.maximum((axes * axes).sum(axis=2, keepdims=True), 1e-12)
+    at = np.concatenate([on @ dual.transpose(0, 2, 1), _octagon(cuts)], axis=1)
     size = np.abs(at).max(axis=(1, 2))
-    u, v = (at / size[:, None, None]).transpose(2, 0, 1)
-    cut = np.stack([each.max(axis=1) for each in (u + v, v - u, -u - v, u - v)], axis=1)
+    cut = (at @ _DIAGONALS).max(axis=1) / size[:, None]
     return np.where(fits & (size <= WIDEST), size, np.inf), cut
 
 
 def _octagon(cuts: NDArray) -> Vector:
     """(m, 8, 2) corners, in halves of the rectangle."""
-    ends = np.asarray(cuts, np.float64) - 1.0
-    one = np.ones_like(ends)
-    sides = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
-    both = np.stack([np.stack([one, ends], -1), np.stack([ends, one], -1)], axis=2)
-    return (both * sides[:, None]).reshape(len(ends), 8, 2)
+    found = _CORNERS.repeat(len(cuts), axis=0)
+    found[:, _CUT[0], _CUT[1]] *= (cuts - 1.0)[:, _QUARTER]
+    return found

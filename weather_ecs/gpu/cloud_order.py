@@ -61,12 +61,12 @@ class CloudOrder:
 
     def _notice(self, scene: CloudScene, keys: NDArray[np.int64]) -> None:
         """Find neighbours of the last order that have changed places while one covers the other."""
-        both = np.isin(self._before, keys, assume_unique=True)
-        before = self._before[both]
-        if len(before) < 2:
+        if np.array_equal(self._before, keys):
             return
-        sorter = np.argsort(keys)
-        rank = sorter[np.searchsorted(keys, before, sorter=sorter)]
+        ranks = {key: place for place, key in enumerate(keys.tolist())}
+        both = [ranks.get(key, -1) for key in self._before.tolist()]
+        rank = np.array(both, np.intp)
+        before, rank = self._before[rank >= 0], rank[rank >= 0]
         swapped = np.flatnonzero(rank[:-1] > rank[1:])
         if not len(swapped):
             return

@@ -33,8 +33,10 @@ class Items(NamedTuple):
 
     def shows(self, first: int, last: int, kinds: tuple[int, ...]) -> bool:
         """Whether any from `first` to before `last` is of these kinds, and draws something."""
-        some = self.ends[first:last] > self.begins[first:last]
-        return bool(np.isin(self.kinds[first:last][some], kinds).any())
+        part = self.part(first, last)
+        kinds_found, begins, ends = (numbers.tolist() for numbers in part)
+        found = zip(kinds_found, begins, ends, strict=True)
+        return any(end > begin and kind in kinds for kind, begin, end in found)
 
     def parted(self, middles: NDArray[np.intp]) -> tuple[Items, Items]:
         """What of each comes before its middle, and what after."""
@@ -43,13 +45,17 @@ class Items(NamedTuple):
 
 def runs(items: Items) -> Iterator[tuple[int, int, int]]:
     """(kind, begin, end) of neighbours of one kind that follow on each other."""
-    some = items.ends > items.begins
-    kinds, begins, ends = (part[some] for part in items)
-    if not len(kinds):
-        return
-    new = (kinds[1:] != kinds[:-1]) | (begins[1:] != ends[:-1])
-    firsts = np.flatnonzero(np.concatenate([[True], new]))
-    lasts = np.append(firsts[1:], len(kinds)) - 1
-    yield from zip(
-        kinds[firsts].tolist(), begins[firsts].tolist(), ends[lasts].tolist(), strict=True
-    )
+    # NumPy's calls take longest over the few items that there are.
+    first = last = 0
+    now = -1
+    kinds, begins, ends = (numbers.tolist() for numbers in items)
+    for kind, begin, end in zip(kinds, begins, ends, strict=True):
+        if end <= begin:
+            continue
+        if kind != now or begin != last:
+            if last > first:
+                yield now, first, last
+            now, first = kind, begin
+        last = end
+    if last > first:
+        yield now, first, last
