@@ -92,6 +92,22 @@ def test_a_callback_that_raises_is_named_and_left_out(
     assert_as_rays(maps, [transform])
 
 
+def test_one_that_was_mended_is_drawn_again(maps: Maps, caplog: pytest.LogCaptureFixture) -> None:
+    class Windmill:
+        def draw(self, matrix: np.ndarray) -> None:
+            raise RuntimeError("a blade came off")
+
+    mill, mended = Windmill(), drawing(maps, placed(HERE, (1, 1, 1)), [])
+    broken = OccluderData(0, np.eye(4), True, draw=mill.draw)
+    with caplog.at_level(logging.ERROR, "weather_ecs"):
+        for _ in range(3):
+            maps.capture(replace(broken, draw=mill.draw))  # the same function, if another object
+    assert len(caplog.records) == 1
+    assert maps.at(HERE[0], HERE[2]) == -math.inf
+    maps.capture(replace(broken, draw=mended))
+    assert maps.at(HERE[0], HERE[2]) > -math.inf
+
+
 def test_a_callback_that_draws_nothing(maps: Maps) -> None:
     maps.capture(OccluderData(0, np.eye(4), True, draw=lambda matrix: None))
     assert (maps.depth() == 1.0).all()

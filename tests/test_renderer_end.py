@@ -20,7 +20,14 @@ from tests.gl_names import living
 from tests.rain_frames import area, camera, frame, quality
 from tests.renderer_scene import far, near
 from tests.weather_pictures import Stage, stage
-from weather_ecs.components import Observer, Occluder, PointLight, Wind
+from weather_ecs.components import (
+    Observer,
+    Occluder,
+    PointLight,
+    RippleSurface,
+    SplashEmitter,
+    Wind,
+)
 from weather_ecs.errors import ContextError
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.renderer import Renderer
@@ -78,6 +85,27 @@ def test_a_forgotten_observer_leaves_no_heightmap(ctx: moderngl.Context, gl: GL)
     renderer.release()
     for thing in (*target.color_attachments, target.depth_attachment, target):
         thing.release()
+
+
+def test_observers_that_come_and_go_leave_nothing(made: Stage, gl: GL) -> None:
+    """With all that is kept for one: drops, splashes, rings, maps, what shaders read."""
+    esper.create_entity(near(), Occluder(CORNERS, TRIANGLES, placed((0, -1, 0), (90, 1, 90))))
+    esper.create_entity(SplashEmitter(), RippleSurface((4.0, 0.05, 0.0), (4.0, 4.0)))
+    counts = []
+    for k in range(6):
+        seen = Observer()
+        made.weather.wetness(observer=seen), made.weather.heightmap(observer=seen)
+        made.weather.air(observer=seen)
+        for _ in range(2):
+            esper.process(1 / 30)
+            made.draw(observer=seen)
+        assert made.weather.ripples(RippleSurface((0, 0, 0), (1, 1)), observer=seen) is None
+        del seen
+        gc.collect()
+        made.play(1)
+        if k > 1:
+            counts.append({kind: len(names) for kind, names in living(gl).items()})
+    assert counts[0] == counts[-1]
 
 
 def test_entities_that_come_and_go_leave_nothing(made: Stage, gl: GL) -> None:

@@ -200,6 +200,22 @@ def test_it_is_the_last_draws_place_and_each_observers_own(
         thing.release()
 
 
+def test_lightning_lights_the_air_where_one_asks(weather: Weather) -> None:
+    """Also for the second place in a frame."""
+    weather.strike((0.0, 0.0, 0.0), current=30.0)
+    while not weather.frame().strikes["light"].sum() > 1.0:
+        esper.process(0.002)
+        assert weather.stats.time < 1.0
+
+    def seen(x: float) -> np.ndarray:
+        air = weather.air(position=(x, 2.0, 0.0))
+        return np.array(air._block.data["weather_fog_color"][:3])
+
+    here, far = seen(50.0), seen(20_000.0)
+    assert (here > 1.05 * far).all()
+    assert np.array_equal(seen(50.0), here)
+
+
 def test_a_host_keeps_its_state(ctx: moderngl.Context, gl: GL, weather: Weather) -> None:
     buffer = ctx.buffer(reserve=64)
     buffer.bind_to_uniform_block(0)

@@ -64,7 +64,7 @@ class Heightmap:
         self._still: list[OccluderData] | None = None
         self._moving: list[OccluderData] = []
         self._callbacks = False  # among what moves: the game may draw it elsewhere at any time
-        self._broken: set[int] = set()
+        self._broken: dict[int, object] = {}  # functions that have failed, by their occluder
         self._slope = SlopeFollower()
         self._matrix: tuple[Footprint, NDArray[np.float64]] | None = None  # to the map's clip space
         self.others = False  # whether the last capture met other meshes than the one before
@@ -100,8 +100,9 @@ class Heightmap:
         if occluders is self._seen and stays and not (self._callbacks or rests):
             return False
         self._seen = occluders
-        still = [o for o in occluders if not o.dynamic and o.key not in self._broken]
-        moving = [o for o in occluders if o.dynamic and o.key not in self._broken]
+        sound = [o for o in occluders if o.draw is None or self._broken.get(o.key) != o.draw]
+        still = [o for o in sound if not o.dynamic]
+        moving = [o for o in sound if o.dynamic]
         fresh = not stays or still != self._still
         self._callbacks = any(o.draw is not None for o in moving)
         if not fresh and moving == self._moving and not (self._callbacks or rests):
@@ -157,7 +158,7 @@ class Heightmap:
                 occluder.draw(to_map.copy())
             except Exception:
                 # The game's own code: named, left out from here on, and the frame goes on.
-                self._broken.add(occluder.key)
+                self._broken[occluder.key] = occluder.draw
                 _log.exception("occluder %r failed and is left out", occluder.draw)
             # Whatever the game's code has bound or switched on ends here.
             self._guard.reset()

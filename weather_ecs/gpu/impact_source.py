@@ -72,6 +72,12 @@ class ImpactReader:
         self._arrays[key] = (records, array)
         return array
 
+    def forget(self, key: int) -> None:
+        """Give back what belongs to an observer who is gone."""
+        _, array = self._arrays.pop(key, (None, None))
+        if array is not None:
+            array.release()
+
     def release(self) -> None:
         """Give the vertex arrays back; twice does no harm."""
         for _, array in self._arrays.values():

@@ -132,7 +132,7 @@ class Renderer:
         place: (x, z), m.
         """
         air = self._airs.get(key)
-        if air is None or air.stale(frame, y, rate):
+        if air is None or air.stale(frame, y, rate, place):
             with self._guard.for_buffers():
                 if air is None:
                     air = self._airs[key] = WeatherAir(self._ctx)

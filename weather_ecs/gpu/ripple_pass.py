@@ -135,6 +135,7 @@ class RipplePass:
     def forget(self, observer: int) -> None:
         """Give back what belongs to an observer who is gone."""
         self._drop([key for key in self._grids if key[0] == observer])
+        self._solver.forget(observer)
 
     def _drop(self, keys: list[tuple[int, int]]) -> None:
         for key in keys:

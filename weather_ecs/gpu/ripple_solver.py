@@ -108,6 +108,10 @@ class RippleSolver:
         grid.draw_to_map()
         self._map_array.render(moderngl.TRIANGLES, vertices=3)
 
+    def forget(self, observer: int) -> None:
+        """Give back what belongs to an observer who is gone."""
+        self._reader.forget(observer)
+
     def release(self) -> None:
         """Give everything back; twice does no harm."""
         self._map_array.release()

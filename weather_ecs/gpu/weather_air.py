@@ -41,7 +41,7 @@ class WeatherAir:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._block = BlockBuffer(ctx, WEATHER_AIR)
-        self._made_of: tuple[FrameData, float, float] | None = None
+        self._made_of: tuple[FrameData, float, float, tuple[float, float] | None] | None = None
         self._rain = self._snow = 0.0
         self._frame = FrameData()
 
@@ -70,10 +70,14 @@ class WeatherAir:
         """m of fog overhead."""
         return self._frame.fog.depth
 
-    def stale(self, frame: FrameData, y: float, rate: float) -> bool:
+    def stale(
+        self, frame: FrameData, y: float, rate: float, place: tuple[float, float] = (0.0, 0.0)
+    ) -> bool:
         """Whether `fill` would change something."""
         known = self._made_of
-        return known is None or known[0] is not frame or known[1:] != (y, rate)
+        if known is None or known[0] is not frame:
+            return True
+        return known[1:] != (y, rate, place if len(frame.strikes) else None)
 
     def fill(
         self, frame: FrameData, y: float, rate: float, place: tuple[float, float] = (0.0, 0.0)
@@ -82,7 +86,9 @@ class WeatherAir:
 
         place: (x, z) of the observer, m, for the light of lightning in the air there.
         """
-        self._made_of, self._frame = (frame, y, rate), frame
+        # Where one stands matters to nothing but the light of lightning.
+        self._made_of = (frame, y, rate, place if len(frame.strikes) else None)
+        self._frame = frame
         air, fog, sky, profile = frame.air, frame.fog, frame.sky, frame.profile
         self._snow = rate * share_at(temperature_at(air.temperature, y), air.humidity)
         self._rain = rate - self._snow
