@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from demo_game.collision import Colliders
 from demo_game.place import Place, bake, cabin, flora, jetty, layout
+from demo_game.place.ground_mesh import drowned
 from demo_game.place.mesh import Builder
 from demo_game.place.noise import Noise
 from demo_game.place.windmill import HUB, REACH
@@ -103,6 +104,26 @@ def test_the_pond_is_a_hollow_below_its_level(place: Place) -> None:
     for turn in np.linspace(0.0, 6.2, 40):
         shore_x, shore_z = x + 1.6 * a * np.cos(turn), z + 1.6 * b * np.sin(turn)
         assert place.height(shore_x, shore_z) > level - 0.05
+
+
+def test_what_lies_below_the_pond_is_told_from_the_rest(place: Place) -> None:
+    level = place.pond.level
+    x, z = place.pond.center
+    far = layout.CABIN
+    points = [
+        (x, level - 0.6, z),
+        (x, level + 0.2, z),
+        (x, level, z),
+        (far[0], level - 5.0, far[1]),
+    ]
+    found = drowned(place.terrain, np.array(points))
+    assert found[:3] == pytest.approx([0.6, -0.2, 0.0], abs=1e-9)
+    assert found[3] == -np.inf  # low ground elsewhere is dry
+    # Where the sheet of water ends the ground crosses its level, between vertices that know both.
+    deep = drowned(place.terrain, place.ground.vertices)
+    near = place.terrain.pond_radius(*place.ground.vertices.T[[0, 2]].astype("f8"))
+    assert (deep[near < 0.9] > 0.0).all()
+    assert np.isfinite(deep[(near > 1.0) & (near < 1.5)]).all()
 
 
 def test_lamps_hang_above_the_ground_near_the_path(place: Place) -> None:

@@ -176,6 +176,13 @@ def _ranges(chunks: list[NDArray], first: int) -> tuple[NDArray, int]:
     return np.stack([starts[:-1], counts], 1), int(starts[-1])
 
 
+def drowned(terrain: Terrain, vertices: NDArray) -> NDArray:
+    """(n,) m that vertices lie below the pond's water, -1 to 1; -inf where no pond is near."""
+    x, y, z = np.asarray(vertices, "f8").T
+    deep = np.clip(terrain.pond_level - y, -1.0, 1.0)
+    return np.where(terrain.pond_radius(x, z) < 1.6, deep, -np.inf)
+
+
 def pond_mesh(terrain: Terrain, step: float = 1.0) -> tuple[NDArray, NDArray]:
     """(n, 4) f4 water vertices (x, y, z, depth m) and (m, 3) triangles, to just past the shore."""
     reach = np.array(layout.POND_RADII) * 1.35

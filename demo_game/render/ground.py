@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from demo_game.place import Place, paint
+from demo_game.place.ground_mesh import drowned
 
 from . import geometry
 from .environment import Environment
@@ -32,6 +33,8 @@ class Ground:
         )
         data["position"] = mesh.vertices
         data["normal"][:, :3] = np.round(mesh.normals * 127.0)
+        deep = np.round(drowned(place.terrain, mesh.vertices) * 127.0)
+        data["normal"][:, 3] = np.maximum(deep, -128.0)
         data["color"][:, :3] = np.round(np.sqrt(np.clip(mesh.colors, 0, 1)) * 255)
         data["color"][:, 3] = np.round(mesh.painted * 255)
         self._vertices = ctx.buffer(data.tobytes())

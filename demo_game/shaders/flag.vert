@@ -28,11 +28,15 @@ vec3 place(vec2 at, float speed) {
     float flap = speed / (speed + 4.0);
     float phase = s * 5.5 - drift.w * 3.0 + at.y * 1.3;
     float wave = 0.17 * flap * at.x * (sin(phase) + 0.4 * sin(phase * 1.7 + wind.w * 2.0));
+    // The more it blows, the more its free end whips up and down, each corner in its own time.
+    float whip = 0.22 * flap * flap * at.x * at.x
+        * (sin(phase * 0.6 - drift.w * 0.9 + at.y * 1.5) + 0.5 * sin(phase - at.y * 2.1));
+    reach *= 1.0 - 0.13 * flap * flap * at.x;  // cloth in waves is shorter
     vec3 along = vec3(wind.x, 0.0, wind.y);
     vec3 side = vec3(-wind.y, 0.0, wind.x);
     float tuck = mix(1.0, 0.75, out_down.y * at.x);
     return hoist.xyz + along * (s * reach) + side * (wave + fold)
-        - vec3(0.0, t * tuck + s * sag + 0.35 * wave * at.x, 0.0);
+        - vec3(0.0, t * tuck + s * sag + 0.35 * wave * at.x + whip, 0.0);
 }
 
 void main() {

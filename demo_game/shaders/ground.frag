@@ -16,6 +16,8 @@ uniform sampler2D detail_map;
 #include "wetness.glsl"
 #endif
 
+const float FLUTTER = 1.6;  // m, between the drifts of flakes that land side by side
+
 in vec4 v_light;
 in vec4 v_haze;
 in vec4 v_place;
@@ -75,8 +77,11 @@ void main() {
 #if !defined(NEAR) && defined(SNOWS)
     snowy = smoothstep(0.0, 1.0, v_snow * 0.5 - 0.45 * bare);
 #elif defined(WET) && defined(SNOWS)
-    float deep = weather_snow(p, vec3(0.0, v_snow, 0.0)) * 1000.0;
+    // Read aside by the grain, as flakes that flutter make no sharp edge under what stands over it.
+    vec3 aside = vec3(detail.g + detail.a, 0.0, detail.b - detail.a) * FLUTTER;
+    float deep = weather_snow(p + aside, vec3(0.0, v_snow, 0.0)) * 1000.0;
     snowy = smoothstep(0.0, 1.0, deep * 0.5 - 0.8 * (detail.g + detail.b) - 0.45 * bare);
+    snowy *= min(deep * 3.0, 1.0);
 #endif
     vec3 snow = SNOW;
 #ifdef NEAR

@@ -10,7 +10,7 @@ uniform sampler2D sky_map;
 #endif
 
 in vec3 in_position;
-in vec4 in_normal;
+in vec4 in_normal;    // times 127, w: m below the pond's water, the least where there is none
 in vec4 in_color;     // square root of the albedo beyond the painted map, w: painted share
 
 uniform vec4 map_window;  // low corner x, z, 1 / size x, z
@@ -53,12 +53,14 @@ float rise(vec2 p)
 void main() {
     vec3 n = normalize(in_normal.xyz);
     vec2 cover = rain_cover(in_position.xz);
+    // What falls into the pond melts; on its shore, which is not steep, snow begins at the water.
+    float ashore = in_normal.w > -127.5 ? 0.65 - (8.0 / 127.0) * in_normal.w : n.y;
 #ifdef NEAR
-    v_snow = n.y;
+    v_snow = ashore;
 #else
     v_snow = 0.0;
 #ifdef SNOWS
-    v_snow = 10.0 * weather_open_snow(in_position) * smoothstep(0.5, 0.8, n.y);
+    v_snow = 10.0 * weather_open_snow(in_position) * smoothstep(0.5, 0.8, ashore);
 #endif
 #endif
     vec3 around = sky_light(n, cover.x) + flash_light(in_position, n);
