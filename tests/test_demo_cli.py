@@ -180,6 +180,15 @@ def test_a_bad_argument_ends_the_program_with_two(tmp_path: Path) -> None:
     assert done.stderr.count("\n") == 1
 
 
+def test_without_its_library_the_game_says_what_to_install() -> None:
+    code = "import sys; sys.modules['PIL'] = None; from demo_game.__main__ import main; "
+    run = [sys.executable, "-c", code + "sys.exit(main())"]
+    done = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and not done.stdout
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("demo_game: ") and "pip install 'weather_ecs[demo]'" in line
+
+
 def test_an_unwritable_folder_is_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
