@@ -88,8 +88,8 @@ def test_serials_and_ages_are_bounded() -> None:
     "read",
     [
         lambda state: CloudField.from_state(state, 1),
-        Course.from_state,
-        StrikeField.from_state,
+        lambda state: Course.from_state(state, TICK),
+        lambda state: StrikeField.from_state(state, TICK),
         lambda state: unpack(state, TICK, LEAST, FOLLOWING),
     ],
     ids=["field", "course", "strikes", "array"],

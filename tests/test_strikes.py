@@ -178,6 +178,8 @@ def test_a_snapshot_goes_on_to_the_same_strikes_and_thunder() -> None:
         lambda it: it["struck"][0].__setitem__(5, 1),
         lambda it: it["struck"][0].__setitem__(6, 2**63),
         lambda it: it.update(due=[it["struck"][0]]),
+        lambda it: it["struck"][-1].__setitem__(1, 10_000),  # yet to come
+        lambda it: it["due"].insert(0, [it["struck"][0], True]),  # long over
         lambda it: it.update(struck=it["struck"] * 2000),
     ],
 )

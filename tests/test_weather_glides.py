@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tests.worlds import fresh_world, let_pass
-from weather_ecs import Weather
+from weather_ecs import Weather, snapshot
 from weather_ecs.components import SkyLayer
 from weather_ecs.errors import InvalidValueError, SnapshotError
 from weather_ecs.systems.course import LIMITS, Conditions, Course
@@ -164,19 +164,52 @@ def test_a_snapshot_half_way_goes_on_to_the_byte():
         assert second.snapshot() == later
 
 
+@pytest.mark.parametrize("part", ["rain", "layer"])
+def test_what_the_game_has_just_deleted_is_led_nowhere(part):
+    """Deleted, as esper does it, at the next process only."""
+    with Weather() as weather:
+        weather.change_to("steady_rain")
+        let_pass(1)
+        gone = weather.whole.entities["rain"]
+        if part == "layer":
+            gone = min(entity for entity, _ in esper.get_component(SkyLayer))
+        esper.delete_entity(gone)
+        weather.change_to("showers", 5.0)
+        assert gone not in weather.whole.entities.values()
+        let_pass(8)
+        assert weather.whole.progress == 1.0
+        assert weather.sample((0, 0, 0)).rain_rate > 0.0
+        assert not esper.entity_exists(gone)
+
+
+def test_a_rate_that_leads_too_far_stays_in_its_limits():
+    """No weather comes to such a rate, but a snapshot may hold it."""
+    with Weather() as weather:
+        weather.change_to("clear")
+        weather.change_to("fog", 100.0)
+        document = snapshot.decode(weather.snapshot())
+        document["course"]["rates"] = [1e9] * len(document["course"]["rates"])
+        weather.restore(snapshot.encode(document))
+        let_pass(10)
+        for name, value in weather.whole.conditions._asdict().items():
+            low, high = LIMITS[name]
+            assert low <= value <= high
+
+
 def test_bad_courses_in_snapshots_are_refused():
     with Weather() as weather:
         weather.change_to("clear")
         weather.change_to("fog", 10.0)
         let_pass(2)
         good = json.loads(json.dumps(weather._state.course.state()))
-        assert Course.from_state(good).state() == good
+        now = weather._state.clock.steps
+        assert Course.from_state(good, now).state() == good
         for field, value in (
             ("name", 5), ("start", []), ("end", [1.0] * 3), ("began", -1), ("steps", 0.5),
             ("rates", None), ("stage", 9), ("owned", {"moon": 1}), ("layers", [[1, 2]]),
-            ("layers", {}), ("start", [9.0] * 13),
+            ("layers", {}), ("start", [9.0] * 13), ("began", now + 1),
         ):  # fmt: skip
             with pytest.raises(InvalidValueError):
-                Course.from_state({**good, field: value})
+                Course.from_state({**good, field: value}, now)
         with pytest.raises(SnapshotError):
             weather.restore(b"WECS nonsense")

@@ -114,14 +114,15 @@ def _load(document: dict[str, Any]) -> Loaded:
         built = [_component(name, values) for name, values in entry[1].items()]
         entities.append(Entity(uid, {type(component): component for component in built}))
     seed = _integer("seed", document["seed"], 2**63 - 1)
+    clock, course = Clock.from_state(document["clock"]), document["course"]
     return Loaded(
         seed=seed,
         rng=_generator(document["rng"]),
-        clock=Clock.from_state(document["clock"]),
+        clock=clock,
         clouds=CloudField.from_state(document["clouds"], seed),
-        course=None if document["course"] is None else Course.from_state(document["course"]),
+        course=None if course is None else Course.from_state(course, clock.steps),
         fronts=RainFronts.from_state(document["fronts"]),
-        strikes=StrikeField.from_state(document["lightning"]),
+        strikes=StrikeField.from_state(document["lightning"], clock.steps),
         next_uid=next_uid,
         entities=entities,
         wet_ground=WetGround.from_state(document["wetness"]),

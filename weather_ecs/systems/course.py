@@ -106,7 +106,8 @@ class Course:
                 a, b = math.log(a), math.log(b)
             value = glide(a, v, b, seconds, passed)
             low, high = LIMITS[name]
-            values.append(min(max(math.exp(value) if log else value, low), high))
+            # A snapshot's rate may lead farther than `exp` does.
+            values.append(min(max(math.exp(min(value, 700.0)) if log else value, low), high))
         return Conditions(*values)
 
     def rates_at(self, step: int) -> tuple[float, ...]:
@@ -138,8 +139,11 @@ class Course:
         }
 
     @classmethod
-    def from_state(cls, state: Any) -> Course:
-        """The course that `state` was taken of. Raises InvalidValueError for anything else."""
+    def from_state(cls, state: Any, now: int) -> Course:
+        """The course that `state` was taken of, at the fixed step `now`.
+
+        Raises InvalidValueError for anything else.
+        """
         if not isinstance(state, dict) or set(state) != set(cls.__slots__):
             raise InvalidValueError("course", state, f"the fields {sorted(cls.__slots__)}")
         name = state["name"]
@@ -151,6 +155,8 @@ class Course:
                 raise InvalidValueError(f"course.{each}", state[each], f"{count} numbers")
         start, end = (checked(Conditions(*state[each])) for each in ("start", "end"))
         began, steps = (_check_step(f"course.{each}", state[each]) for each in ("began", "steps"))
+        if began > now:
+            raise InvalidValueError("course.began", began, f"a step up to {now}, the clock's")
         found = cls(name, start, end, began, steps)
         found.rates = tuple([_check_rate("course.rates", value) for value in state["rates"]])
         found.stage = integer(UNDER_WAY, CLEARED)("course.stage", state["stage"])

@@ -98,8 +98,11 @@ class StrikeField:
         }
 
     @classmethod
-    def from_state(cls, state: Any) -> StrikeField:
-        """The field that `state` was taken of. Raises InvalidValueError for anything else."""
+    def from_state(cls, state: Any, now: int) -> StrikeField:
+        """The field that `state` was taken of, at the fixed step `now`.
+
+        Raises InvalidValueError for anything else.
+        """
         if not isinstance(state, dict) or set(state) != {"due", "following", "struck"}:
             raise InvalidValueError("lightning", state, "due, following and struck")
         field = cls()
@@ -112,10 +115,17 @@ class StrikeField:
             if not isinstance(row, list) or len(row) != 2:
                 raise InvalidValueError("lightning.due", row, "a strike and a flag")
             field.due.append((_strike(row[0], field.following), _check_flag("drawn", row[1])))
-        for strikes in (field.struck, [strike for strike, _ in field.due]):
+        following = min(now + 1, MOST_STEPS)
+        for strikes, first, last in (
+            (field.struck, 0, now),
+            ([strike for strike, _ in field.due], following, MOST_STEPS),
+        ):
             places = [(strike.step, strike.number) for strike in strikes]
             if places != sorted(set(places)):
                 raise InvalidValueError("lightning", places, "strikes in order, each once")
+            if places and not first <= places[0][0] <= places[-1][0] <= last:
+                allowed = f"steps of {first} to {last}: the clock is at {now}"
+                raise InvalidValueError("lightning", places, allowed)
         return field
 
 

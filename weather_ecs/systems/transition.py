@@ -46,6 +46,7 @@ def begin(
     center: tuple[float, float],
 ) -> None:
     """Set out for another weather; where none is there yet, put it up."""
+    state.uids.commit()  # what is about to be deleted is led nowhere
     before, now = state.course, state.clock.steps
     steps = 0 if before is None else round(seconds / STEP)
     start = end if before is None else before.at(now)
