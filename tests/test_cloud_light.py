@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from typing import Any
 
 import moderngl
@@ -13,12 +15,13 @@ from numpy.typing import NDArray
 
 from tests.cloud_captures import CENTERS, captured, expected_places
 from tests.cloud_stage import cloud_stage, clouds, shape, sky_frame, view_of
-from weather_ecs.frame import CloudLook, FogData
+from weather_ecs.frame import CloudLook, FogData, SkyLight
 from weather_ecs.gpu.cloud_scene import surround_of
 from weather_ecs.gpu.view_block import encode
 from weather_ecs.physics import cloud_billboard, cloud_light
 from weather_ecs.physics.cloud_light import Body, surround
 from weather_ecs.physics.cloud_spread import Spread
+from weather_ecs.physics.high_sun import LEVELS
 
 
 @pytest.fixture
@@ -73,7 +76,10 @@ def test_the_full_light_is_the_oracle_s(ctx: moderngl.Context, scene: dict[str, 
     data = shape(centers=CENTERS, billboards=8, absorbed=(0.1, 0.45, 0.9))
     row = {**scene, "growth": 1.0}
     look = CloudLook(silver=0.7, base=0.9, ambient=1.1)
-    frame = sky_frame(clouds(row), data, cloud_look=look)
+    # Of a low sun, whose light grows with the height.
+    high = tuple((0.1 * k, 0.08 * k, 0.01 * k * k) for k in range(LEVELS))
+    sky = replace(SkyLight(), high_direction=(0.6, 0.16, math.sqrt(0.6144)), high_colors=high)
+    frame = sky_frame(clouds(row), data, cloud_look=look, sky=sky)
     with cloud_stage(ctx) as stage:
         found = captured(stage, frame)
         stored = stage.passes.store.shapes[0]
@@ -105,7 +111,7 @@ def test_the_full_light_is_the_oracle_s(ctx: moderngl.Context, scene: dict[str, 
     lean = np.hypot(*row["shear"])
     half = np.array([half[0] + lean * half[1], half[1], half[2] + lean * half[1]])
     half[[0, 2]] = max(half[0], half[2])
-    body = Body(half, stored.base * row["scale"], 0.4, 0.3, 1.0 / (400.0 * row["scale"]))
+    body = Body(half, stored.base * row["scale"], 0.4, 0.3, 1.0 / (400.0 * row["scale"]), 300.0)
     lit = cloud_light.full_light(v, s, w, a, body, surround_of(view_of(frame)), (0.7, 0.9, 1.1))
     np.testing.assert_allclose(found["vs_lit"], encode(lit.lit), atol=2e-3)
     np.testing.assert_allclose(found["vs_shade"], encode(lit.shade), atol=2e-3)
@@ -181,6 +187,22 @@ def test_of_a_tower_only_the_foot_is_dark() -> None:
     lit = cloud_light.full_light(v, v, w, np.zeros(3), body, light).lit[:, 0]
     assert lit[0] < 0.5 * lit[1]
     assert lit[1] == pytest.approx(lit[2], rel=0.1)
+
+
+def test_a_low_sun_shines_under_a_base_and_higher_up_first() -> None:
+    suns = np.linspace(0.0, 1.0, LEVELS)[:, None] * np.ones(3)
+    body = Body(np.array([500.0, 200.0, 500.0]), -190.0, 0.9, thick=1.0 / 400.0, height=1500.0)
+    v, w = np.array([[0.0, -180.0, 0.0]]), np.array([[0.0, 1.0, 0.0]])
+
+    def lit(y: float, height: float = 1500.0) -> float:
+        towards = (math.sqrt(1.0 - y * y), y, 0.0)
+        dark = (0.0, 0.0, 0.0)
+        light = surround(towards, (1, 1, 1), dark, dark, dark, suns)
+        there = replace(body, height=height)
+        return float(cloud_light.full_light(v, v, w, np.zeros(1), there, light).lit[0, 0])
+
+    assert lit(0.0) > 1.8 * lit(0.5)
+    assert lit(0.0, 9000.0) > 2.0 * lit(0.0) > 4.0 * lit(0.0, 200.0)
 
 
 def test_the_lining_is_towards_the_sun_and_at_the_rim() -> None:

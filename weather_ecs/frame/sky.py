@@ -41,6 +41,14 @@ class SkyLight:
     zenith_color: tuple[float, float, float] = (0.36, 0.47, 0.62)
     horizon_color: tuple[float, float, float] = (0.68, 0.73, 0.78)
     ground_color: tuple[float, float, float] = (0.20, 0.20, 0.17)
+    # Of the clouds, which have the sun for longer: see `physics.high_sun`. Without, as it is below.
+    high_direction: tuple[float, float, float] | None = None
+    high_colors: tuple[tuple[float, float, float], ...] = ()
+
+    @property
+    def cloud_direction(self) -> tuple[float, float, float]:
+        """Unit, towards what lights the clouds."""
+        return self.high_direction or self.sun_direction
 
 
 @dataclass(frozen=True, slots=True, eq=False)

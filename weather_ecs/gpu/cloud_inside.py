@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from weather_ecs.frame import ViewData
 from weather_ecs.gpu.cloud_scene import CloudScene
 from weather_ecs.gpu.cloud_store import CloudStore
-from weather_ecs.gpu.cloud_stream import eye_in_shape
+from weather_ecs.gpu.cloud_stream import eyes_in_shapes
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.view_block import encode
 from weather_ecs.physics.cloud_light import Surround, depth_inside, inside_light
@@ -33,17 +33,20 @@ class CloudInside:
         near = np.flatnonzero(scene.visible & (scene.away < scene.reach))
         if view.frame.cloud_look.plain:
             near = near[:0]
-        for index in near.tolist():
+        height = view.position[1] - view.frame.profile.ground
+        eyes = eyes_in_shapes(scene.center[near], scene.clouds[near])
+        shapes = scene.shapes[near]
+        within = ((eyes > store.low[shapes]) & (eyes < store.high[shapes])).all(axis=1)
+        for index, eye in zip(near[within].tolist(), eyes[within], strict=True):
             cloud = scene.clouds[index]
             shape = store.shapes[int(scene.shapes[index])]
-            eye = eye_in_shape(scene.center[index], cloud)
             deep, seed = depth_inside(eye, shape.data.centers, shape.data.sizes)
             share = deep * float(cloud["growth"]) ** 2 * float(cloud["opacity"])
             share *= DENSEST * float(shape.data.billboards["opacity"][:64].mean())
             if share > self._color[3]:
                 lost = float(shape.data.absorbed[seed])
                 look = view.frame.cloud_look.ambient
-                color = inside_light(light, lost, look, float(cloud["darkness"]))
+                color = inside_light(light, lost, look, float(cloud["darkness"]), height)
                 flash = float(cloud["flash"]) * np.array([0.86, 0.90, 1.0])
                 self._color[:3], self._color[3] = encode(color + flash), share
         return bool(self._color[3] > 0.002)

@@ -96,6 +96,8 @@ class CloudPrograms:
         """Fill and bind the block for a view."""
         data, look = self._block.data, view.frame.cloud_look
         data["cloud_sun"][:3], data["cloud_sun_color"][:3] = light.direction, light.sun
+        data["cloud_sun"][3] = view.position[1] - view.frame.profile.ground
+        data["cloud_suns"][:, :3] = light.suns
         data["cloud_above"][:3], data["cloud_below"][:3] = light.above, light.below
         data["cloud_ambient"][:3] = look.ambient * light.plain
         places, colors = cloud_lights(view.frame, view.position)

@@ -54,8 +54,9 @@ def surround_of(view: ViewData) -> Surround:
     """The light of a view's sky."""
     sky = view.frame.sky
     return cloud_light.surround(
-        sky.sun_direction, sky.sun_color, sky.zenith_color, sky.horizon_color, sky.ground_color
-    )
+        sky.cloud_direction, sky.sun_color, sky.zenith_color, sky.horizon_color, sky.ground_color,
+        sky.high_colors or None,
+    )  # fmt: skip
 
 
 def scene_of(view: ViewData, store: CloudStore, height: int) -> CloudScene:
@@ -138,6 +139,6 @@ def half_sizes(scene: CloudScene, which: NDArray[np.intp]) -> Floats:
 def light_numbers(view: ViewData, light: Surround) -> Floats:
     """What all impostors are lit by; a change of 0.02 in one of them is too much."""
     look = view.frame.cloud_look
-    colors = np.concatenate([light.sun, light.above, light.below, light.plain])
+    colors = np.concatenate([light.sun, light.suns.ravel(), light.above, light.below, light.plain])
     strengths = (look.silver, look.base, look.ambient, float(look.plain))
     return np.concatenate([light.direction, colors, strengths])

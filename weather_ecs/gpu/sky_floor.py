@@ -60,7 +60,7 @@ class SkyFloor:
         dark = float(np.average(clouds["darkness"][below], weights=areas[below]))
         deep = depth_below(height, height - over)
         depth = ground.depth + share * (deep - ground.depth)
-        return Floor(unbent(top_light(surround_of(view), dark)), share, depth)
+        return Floor(unbent(top_light(surround_of(view), dark, height - over)), share, depth)
 
     def _sizes(self, shapes: tuple[CloudShapeData, ...]) -> NDArray[np.float64]:
         """(n, 3) half sizes of the boxes round their seeds, m."""

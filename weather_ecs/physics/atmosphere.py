@@ -79,6 +79,11 @@ def transmittance(altitude: ArrayLike, turbidity: float = 2.2) -> FloatArray:
     return _through(np.full(sine.shape, EYE), sine, _checked(turbidity))
 
 
+def through_from(heights: FloatArray, sine: float, turbidity: float) -> FloatArray:
+    """The same at heights (n,) in m over the ground, (n, 3), by the sine of the altitude."""
+    return _through(EYE + 1e-3 * heights, np.full(heights.shape, sine), turbidity)
+
+
 def sky_table(altitude: float, turbidity: float = 2.2) -> SkyTable:
     """The sky for the sun at `altitude` degrees; some 4 ms. Raises InvalidValueError."""
     number("altitude", altitude, -90.0, 90.0)

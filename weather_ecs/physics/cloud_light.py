@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from weather_ecs.physics.cloud_billboard import smoothstep
+from weather_ecs.physics.high_sun import LEVELS, sun_at
 from weather_ecs.physics.optics import CLEAR
 
 Array = NDArray[np.float64]
@@ -39,12 +40,14 @@ class Surround:
     above: Array
     below: Array
     plain: Array  # the plain model's one ambient light
+    suns: Array  # (LEVELS, 3), the sun's by height, see `physics.high_sun`
 
 
 def surround(
-    direction: ArrayLike, sun: ArrayLike, zenith: ArrayLike, horizon: ArrayLike, ground: ArrayLike
-) -> Surround:
-    """Light of sky and ground as a cloud gets it."""
+    direction: ArrayLike, sun: ArrayLike, zenith: ArrayLike, horizon: ArrayLike, ground: ArrayLike,
+    suns: ArrayLike | None = None,
+) -> Surround:  # fmt: skip
+    """Light of sky and ground as a cloud gets it; without `suns` the sun is the same everywhere."""
     sun, zenith, horizon, ground = (
         np.asarray(c, np.float64) for c in (sun, zenith, horizon, ground)
     )
@@ -54,7 +57,8 @@ def surround(
     # Ground lit by sun and sky, and the bright air between.
     below = ground * (0.55 * sun * up + 0.35 * zenith) + 0.20 * horizon + 0.18 * zenith
     plain = 0.45 * zenith + 0.15 * horizon + 0.15 * ground
-    return Surround(towards, sun, above, below, plain)
+    by_height = np.tile(sun, (LEVELS, 1)) if suns is None else np.asarray(suns, np.float64)
+    return Surround(towards, sun, above, below, plain, by_height)
 
 
 FOOT = 2600.0  # m of a tower that count as its base
@@ -83,6 +87,7 @@ class Body:
     darkness: float = 0.0
     flash: float = 0.0
     thick: float = 0.0  # 1/m, what a way through it adds to what is absorbed
+    height: float = 0.0  # m, of its centre over the ground
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,16 +137,19 @@ def full_light(
     gloom = 1.0 - 0.38 * body.darkness * bases * (1.0 - 0.9 * smoothstep(0.4, 1.0, rise))
     dim = (under * gloom)[..., None]
 
-    sun = light.sun * through[..., None]
+    here = sun_at(light.suns, body.height + v[..., 1])
+    sun = here * through[..., None]
     ahead = w @ light.direction
     forward = 0.16 * (0.5 + 0.5 * ahead) ** 6 + 0.7 * np.maximum(ahead, 0.0) ** 24
-    lit = (sun * (0.92 + 0.08 * towards)[..., None] + ambient) * dim
-    shade = (sun * (0.22 + 0.06 * towards)[..., None] + 0.95 * ambient) * dim
+    # A low sun shines under the base.
+    sunny = dim + (1.0 - dim) * (1.0 - float(smoothstep(0.02, 0.30, light.direction[1])))
+    lit = sun * (0.92 + 0.08 * towards)[..., None] * sunny + ambient * dim
+    shade = sun * (0.22 + 0.06 * towards)[..., None] * sunny + 0.95 * ambient * dim
     facing = np.clip(0.60 + 0.58 * towards - 0.28 * a, 0.0, 1.0)
 
     aside = q - w * (q * w).sum(-1, keepdims=True)
     edge = smoothstep(0.50, 1.0, _length(aside)[..., 0])
-    rim = (silver * forward * (0.08 + 0.92 * edge) * (1.0 - 0.5 * a))[..., None] * light.sun
+    rim = (silver * forward * (0.08 + 0.92 * edge) * (1.0 - 0.5 * a))[..., None] * here
 
     inside = np.maximum(1.0 - 0.55 * (q * q).sum(-1), 0.12)[..., None]
     flash = body.flash * inside * np.array([0.86, 0.90, 1.0])
@@ -191,8 +199,10 @@ def depth_inside(eye: Array, centers: NDArray, sizes: NDArray) -> tuple[float, i
     return float(smoothstep(0.0, 0.6, 1.0 - reach[box])), box
 
 
-def inside_light(light: Surround, a: float, ambience: float, darkness: float) -> Array:
+def inside_light(
+    light: Surround, a: float, ambience: float, darkness: float, height: float = 0.0
+) -> Array:
     """Linear RGB (3,) of the white within a cloud: light from all round, less where it is deep."""
     color: Array = ambience * (0.55 * light.above + 0.45 * light.below)
-    color = color + light.sun * (0.74 * np.exp(-1.1 * a))
+    color = color + sun_at(light.suns, height) * (0.74 * np.exp(-1.1 * a))
     return color * (1.0 - 0.38 * darkness)

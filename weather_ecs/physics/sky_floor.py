@@ -45,9 +45,9 @@ def share_covered(areas: FloatArray) -> float:
     return float(-np.expm1(-FILLED * areas.sum() / (np.pi * AROUND**2)))
 
 
-def top_light(light: Surround, darkness: float) -> FloatArray:
-    """Linear RGB (3,) of clouds seen from above, on average."""
-    body = Body(np.ones(3), -1.0, darkness)
+def top_light(light: Surround, darkness: float, height: float = 0.0) -> FloatArray:
+    """Linear RGB (3,) of clouds seen from above, on average; their height in m."""
+    body = Body(np.ones(3), -1.0, darkness, height=height)
     top, none, down = np.array([0.0, 1.0, 0.0]), np.zeros(3), np.array([0.0, -1.0, 0.0])
     lit = full_light(top, none, down, np.array(LOST_ABOVE), body, light)
     return np.asarray(MEAN_SHADE * (lit.shade + lit.facing * (lit.lit - lit.shade)))

@@ -7,6 +7,17 @@
 const float FOOT = 2600.0;  // m
 const float OVERLAP = 1.3;  // seeds in which a ray is at once
 
+const float HIGHEST = 12000.0;  // m, of the table of the sun by height
+const int SUN_LEVELS = 7;
+
+// The sun at a height in m; as physics/high_sun.sun_at.
+vec3 sun_at(float height)
+{
+    float at = sqrt(clamp(height / HIGHEST, 0.0, 1.0)) * float(SUN_LEVELS - 1);
+    int i = min(int(at), SUN_LEVELS - 2);
+    return mix(cloud_suns[i].rgb, cloud_suns[i + 1].rgb, at - float(i));
+}
+
 struct Light {
     vec3 lit;  // of what faces the sun
     vec3 shade;  // of what is turned from it
@@ -55,14 +66,19 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     // Its top has the sun that never comes to the base.
     float gloom = 1.0 - 0.38 * cloud.darkness * cloud_look.y * (1.0 - 0.9 * smoothstep(0.4, 1.0, rise));
 
-    vec3 sun = cloud_sun_color.rgb * through;
+    vec3 here = sun_at(cloud_sun.w + cloud.center.y + v.y);
+    vec3 sun = here * through;
     float ahead = dot(way, cloud_sun.xyz);
     // Forward scattering of droplets, broad and narrow (two lobes of Henyey and Greenstein's kind).
     float forward = 0.16 * pow(max(0.5 + 0.5 * ahead, 0.0), 6.0) + 0.7 * pow(max(ahead, 0.0), 24.0);
 
     Light light;
-    light.lit = (sun * (0.92 + 0.08 * towards) + ambient) * under * gloom;
-    light.shade = (sun * (0.22 + 0.06 * towards) + ambient * 0.95) * under * gloom;
+    float dim = under * gloom;
+    // A low sun shines under the base.
+    sun *= mix(1.0, dim, smoothstep(0.02, 0.30, cloud_sun.y));
+    ambient *= dim;
+    light.lit = sun * (0.92 + 0.08 * towards) + ambient;
+    light.shade = sun * (0.22 + 0.06 * towards) + ambient * 0.95;
     light.facing = clamp(0.60 + 0.58 * towards - 0.28 * a, 0.0, 1.0);
     light.relief = (0.62 - 0.38 * a) * (0.45 + 0.55 * rise);
     light.soft = 0.75 * (1.0 - rise) * (1.0 - rise);
@@ -70,7 +86,7 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     // Lining: where the cloud ends beside the line of sight, so that little lies behind.
     vec3 aside = q - way * dot(q, way);
     float edge = smoothstep(0.50, 1.0, length(aside));
-    light.rim = cloud_look.x * cloud_sun_color.rgb * forward * (0.08 + 0.92 * edge) * (1.0 - 0.5 * a);
+    light.rim = cloud_look.x * here * forward * (0.08 + 0.92 * edge) * (1.0 - 0.5 * a);
 
     return light;
 }

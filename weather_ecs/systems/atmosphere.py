@@ -17,13 +17,16 @@ from weather_ecs.physics import astronomy
 from weather_ecs.physics.daylight import (
     LUMINANCE,
     NIGHT_LUX,
+    SKY_GAIN,
     SUN_LUX,
     Scene,
     clear_sky,
     look_ahead,
     scene,
+    shifted,
 )
 from weather_ecs.physics.haze import Lit, haze_depth, haze_left, under_fog
+from weather_ecs.physics.high_sun import high_suns, shown_suns
 from weather_ecs.physics.illuminance import moon_phase_factor
 from weather_ecs.physics.optics import CLEAR, air_extinction
 from weather_ecs.systems.climate import oldest_state
@@ -56,6 +59,8 @@ class _Heaven(NamedTuple):
     sun: astronomy.Vector
     moon: astronomy.Moon
     light: Scene
+    high_direction: astronomy.Vector  # of what lights the clouds
+    high_colors: np.ndarray  # (LEVELS, 3), see `physics.high_sun`
 
 
 class Daylight:
@@ -164,7 +169,15 @@ def _heaven(air: Atmosphere, time: float, overcast: float, haze: float) -> _Heav
         exposure=air.exposure,
         adaptation=air.adaptation,
     )
-    return _Heaven(sun, moon, light)
+    high = [
+        shown_suns(high_suns(_altitude(at), air.turbidity), scale / SKY_GAIN, haze, at[1])
+        for at, scale in ((sun, light.sun_scale), (moon.direction, light.moon_scale))
+    ]
+    # The moon's turn comes when the highest clouds have lost the sun.
+    by_sun = float(high[0][-1] @ LUMINANCE) >= float(high[1][-1] @ LUMINANCE)
+    direction = sun if by_sun else moon.direction
+    colors = shifted(high[0 if by_sun else 1], light.shift)
+    return _Heaven(sun, moon, light, astronomy.refracted(direction), colors)
 
 
 def _altitude(direction: astronomy.Vector) -> float:
@@ -182,7 +195,11 @@ def _light(heaven: _Heaven, fog: float) -> SkyLight:
         direction, color = heaven.moon.direction, light.moon_color
     towards = astronomy.refracted(direction)
     lit = under_fog(Lit(color, light.zenith, light.horizon), towards[1], fog)
-    return SkyLight(towards, *(_rgb(c) for c in (*lit, light.ground)))
+    high = tuple([_rgb(c) for c in heaven.high_colors])
+    return SkyLight(
+        towards, _rgb(lit.sun), _rgb(lit.zenith), _rgb(lit.horizon), _rgb(light.ground),
+        heaven.high_direction, high,
+    )  # fmt: skip
 
 
 def _rgb(color: np.ndarray) -> tuple[float, float, float]:

@@ -144,7 +144,7 @@ class CloudList:
         if wanted and (edited or 2 * len(seen.view.rows) < len(record.array)):
             # The start, or other skies or models: clouds that come in one by one can wait.
             for shape in wanted:
-                library.light_new(shape, sky.sun_direction)
+                library.light_new(shape, sky.cloud_direction)
             wanted = seen.view.build(record, layer, models, library)
         self._ghosts.take(rows, before, seen.view.rows["key"], state.clock.time)
         seen.state, seen.wanted, seen.lit = now, wanted, library.lit
@@ -158,7 +158,7 @@ class CloudList:
         if made.wanted and (made.edited or not made.shapes):
             for shape in made.wanted:
                 if shape.data is None:
-                    library.light_new(shape, sky.sun_direction)
+                    library.light_new(shape, sky.cloud_direction)
             made.collect(state.models, library, state.uids, profile)
         self._changed = True
 

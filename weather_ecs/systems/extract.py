@@ -250,7 +250,7 @@ class ExtractSystem:
     def _relight(self, state: WeatherState) -> None:
         """The atmosphere has another light, or there is one no more."""
         self._light = light = self._daylight.light
-        state.light_direction = None if light is None else light.sun_direction
+        state.light_direction = None if light is None else light.cloud_direction
         self._parts = (self._parts[0], light or sun_light(state), self._parts[2])
         self._fog = fog_data(state, self._parts[1])
         self._frame = None

@@ -61,7 +61,7 @@ class WeatherState:
         self.models = models or ModelBook()
         self.cloud_shapes = ShapeLibrary()
         self.events: list[tuple[str, tuple[Any, ...]]] = []  # names and values, to be told of
-        self.light_direction: tuple[float, float, float] | None = None  # of an atmosphere
+        self.light_direction: tuple[float, float, float] | None = None  # of the clouds
         self.drawn = False  # somebody draws this weather, and needs what only pictures show
 
     @property
