@@ -24,6 +24,8 @@ class StoredShape:
     data: CloudShapeData
     first: int  # of its billboards in the texture, a multiple of ROW
     seeds: int  # its first seed, a multiple of ROW
+    low: NDArray[np.float64]  # (3,) m, of the box round its seeds
+    high: NDArray[np.float64]
     half: NDArray[np.float64]  # (3,) half of that box's sizes, m
     base: float  # m, its underside
     position: NDArray[np.float32]  # (n, 3) of the billboards, m
@@ -104,6 +106,8 @@ class CloudStore:
         self.half = np.zeros((0, 3))
         self.base = self.reach = self.thick = self.detail = np.zeros(0)
         self.wide = self.wide_top = np.zeros(0)
+        self.low = self.high = np.zeros((0, 3))
+        self.counts = np.zeros(0, np.intp)
         self._known: dict[int, StoredShape] = {}
         self._tuple: tuple[CloudShapeData, ...] = ()
         self._fading: set[int] = set()
@@ -128,6 +132,9 @@ class CloudStore:
             self.detail = np.array([s.detail for s in stored])
             self.wide = np.array([s.wide for s in stored])
             self.wide_top = np.array([s.wide_top for s in stored])
+            self.low = np.array([s.low for s in stored]).reshape(-1, 3)
+            self.high = np.array([s.high for s in stored]).reshape(-1, 3)
+            self.counts = np.array([len(s.position) for s in stored], np.intp)
             self.thick = np.array([1.0 / max(s.data.penetration, 1e-3) for s in stored])
         if len(self._known) > len(shapes):
             living = {data.key for data in shapes}
@@ -159,6 +166,7 @@ class CloudStore:
             data,
             self.billboards.take(items),
             seeds,
+            *_box(data),
             np.maximum(0.5 * (high - low), 1e-3).astype(np.float64),
             base,
             position,
@@ -203,6 +211,14 @@ class CloudStore:
         self._known.clear()
         self.billboards.release()
         self.seeds.release()
+
+
+def _box(data: CloudShapeData) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The least and the greatest corner of the seeds."""
+    if not len(data.centers):
+        return np.zeros(3), np.zeros(3)
+    half = 0.5 * data.sizes.astype(np.float64)
+    return (data.centers - half).min(axis=0), (data.centers + half).max(axis=0)
 
 
 def _items(data: CloudShapeData, seeds: int) -> NDArray[np.float32]:

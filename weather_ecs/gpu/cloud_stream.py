@@ -6,6 +6,8 @@ of NumPy; far clouds are drawn as impostors and not sorted at all.
 
 from __future__ import annotations
 
+import math
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -34,10 +36,14 @@ class CloudStream:
 
     def fill(self, scene: CloudScene, store: CloudStore, which: NDArray[np.intp]) -> NDArray:
         """Put in the clouds `which`, the k-th with row k; (m + 1,) where each begins."""
-        orders = [self._order(scene, store, int(index)) for index in which]
         begins = np.zeros(len(which) + 1, np.intp)
         if not len(which):
             return begins
+        clouds = scene.clouds[which]
+        shapes = [store.shapes[shape] for shape in clouds["shape"].tolist()]
+        eyes = eyes_in_shapes(scene.center[which], clouds)
+        each = zip(clouds["key"].tolist(), shapes, eyes, strict=True)
+        orders = [self._order(*cloud) for cloud in each]
         np.cumsum([len(order) for order in orders], out=begins[1:])
         self._write(orders)
         return begins
@@ -64,16 +70,12 @@ class CloudStream:
             self.texture.write(pairs.tobytes(), viewport=(0, 0, WIDTH, rows))
         return total
 
-    def _order(self, scene: CloudScene, store: CloudStore, index: int) -> NDArray[np.uint32]:
-        cloud = scene.clouds[index]
-        shape = store.shapes[int(cloud["shape"])]
-        key = int(cloud["key"])
-        eye = eye_in_shape(scene.center[index], cloud)
+    def _order(self, key: int, shape: StoredShape, eye: NDArray) -> NDArray[np.uint32]:
         self._used.add(key)
         known = self._sorted.get(key)
         if known is not None and known[0] is shape:
             moved = eye - known[1]
-            near = max(float(np.sqrt(eye @ eye)) - shape.reach, 0.05 * shape.reach)
+            near = max(math.sqrt(eye @ eye) - shape.reach, 0.05 * shape.reach)
             if float(moved @ moved) < (_MOVED * near) ** 2:
                 return known[2]
         away = shape.position - eye.astype(np.float32)
@@ -110,12 +112,15 @@ class CloudStream:
         self.texture.release()
 
 
-def eye_in_shape(center: NDArray, cloud: NDArray) -> NDArray[np.float64]:
-    """The camera in a shape's own axes, m; the inverse of physics/cloud_billboard.place."""
-    x, y, z = (-float(c) for c in center)
-    x -= float(cloud["shear"][0]) * y
-    z -= float(cloud["shear"][1]) * y
-    c, s = np.cos(float(cloud["heading"])), np.sin(float(cloud["heading"]))
-    scale = max(float(cloud["scale"]), 1e-9)
-    own = np.array([(x * c - z * s) * float(cloud["mirror"]), y, z * c + x * s])
-    return own / scale
+def eyes_in_shapes(center: NDArray, clouds: NDArray) -> NDArray[np.float64]:
+    """(m, 3) the camera in the own axes of clouds' shapes, m; the inverse of
+    physics/cloud_billboard.place. center: (m, 3) of the clouds, from the camera.
+    """
+    x, y, z = -center.T
+    shear, heading = clouds["shear"].astype(np.float64), clouds["heading"].astype(np.float64)
+    x = x - shear[:, 0] * y
+    z = z - shear[:, 1] * y
+    c, s = np.cos(heading), np.sin(heading)
+    own = np.stack([(x * c - z * s) * clouds["mirror"], y, z * c + x * s], axis=1)
+    found: NDArray[np.float64] = own / np.maximum(clouds["scale"].astype(np.float64), 1e-9)[:, None]
+    return found
