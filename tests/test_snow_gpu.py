@@ -90,6 +90,29 @@ def test_flakes_are_where_the_oracle_has_them(
 
 
 @pytest.mark.usefixtures("target")
+def test_flakes_of_a_far_shaft_grow_less_than_drops(ctx: moderngl.Context, backend: str) -> None:
+    shaders = ShaderLoader(ctx)
+    rain = RainPass(ctx, shaders, backend=backend, seed=SEED)
+    try:
+        view = views_of(1, SLEET, SnowLook())[0]
+        for kind in {c.kind for c in view.containers}:
+            near = next(c for c in view.containers if c.kind == kind)
+            shown = {}
+            for scale in (1.0, 2.25, 9.0):
+                rain.fill_container(dataclasses.replace(near, size_scale=scale), view)
+                data = rain._draw_block.data
+                shown[scale] = float(data["drop_look"][1]), float(data["drop_load"][3])
+            sizes = [size for size, _ in shown.values()]
+            assert sizes == pytest.approx([1.0, 1.5, 3.0] if kind == SNOW else [1.0, 2.25, 9.0])
+            # What it covers grows with its area, up to a limit.
+            assert shown[2.25][1] == pytest.approx(shown[1.0][1] * sizes[1] ** 2)
+            assert shown[9.0][1] == pytest.approx(shown[1.0][1] * min(sizes[2] ** 2, 16.0))
+    finally:
+        rain.release()
+        shaders.release()
+
+
+@pytest.mark.usefixtures("target")
 def test_flakes_land_silently(ctx: moderngl.Context, backend: str) -> None:
     views = views_of(50, COLD, SnowLook())
     textures, block, shelter = slab_map(ctx)

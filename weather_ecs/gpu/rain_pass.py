@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import moderngl
@@ -232,14 +233,17 @@ class RainPass:
             return
         self._filled = (container, view)
         look, snow = view.frame.look, view.frame.flakes
-        # A far drop is drawn larger, not fainter: of a shaft it is the grain.
-        density = min(container.size_scale**2, 16.0) * container.cover
+        # A far drop is drawn larger, not fainter: of a shaft it is the grain. A flake, which is no
+        # hair but a disc, less so, or its shaft becomes a swarm of dots.
+        scale = container.size_scale
         if container.kind == SNOW:
-            density *= snow.density
-            shown = (snow.size_maximum, container.size_scale, snow.size, snow.opacity)
+            scale = math.sqrt(scale)
+            density = snow.density
+            shown = (snow.size_maximum, scale, snow.size, snow.opacity)
         else:
-            density *= look.density
-            shown = (look.size_maximum, container.size_scale, look.width, look.opacity)
+            density = look.density
+            shown = (look.size_maximum, scale, look.width, look.opacity)
+        density *= min(scale**2, 16.0) * container.cover
         fade = 1.0 / max(_COUNT_FADE * container.count, 1.0)
         self._draw_block.put(
             DRAW,
