@@ -1,6 +1,6 @@
-"""Sheets of what falls: `python -m tools.precipitation_sheets OUT presets|gust|snow|posts`.
+"""Sheets of what falls: `python -m tools.precipitation_sheets OUT presets|gust|snow|kinds|posts`.
 
-The first three are the demo's walk, the last is a plain with black posts. The sheets in
+All but the last are the demo's walk, the last is a plain with black posts. The sheets in
 docs/drops.md, docs/wind.md, docs/snow.md and docs/fog.md are made by it. Needs Pillow.
 """
 
@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from demo_game.game import Game
 from demo_game.plays import SnowPlay
 from tools.post_row import posts
-from tools.stills import Stage, run, save_sheet
+from tools.stills import ALONG_THE_PATH, Stage, run, save_sheet
 from weather_ecs.physics import wind
 from weather_ecs.presets import PRESETS
 
-USAGE = "usage: python -m tools.precipitation_sheets OUT.jpg presets|gust|snow|posts"
+USAGE = "usage: python -m tools.precipitation_sheets OUT.jpg presets|gust|snow|kinds|posts"
 SHOWN = (
     "drizzle", "light", "moderate", "heavy", "cloudburst",
     "sleet", "light_snow", "heavy_snow", "blizzard", "fog",
@@ -36,6 +36,16 @@ SHARES = {
     "before it eases": 0.62, "after it": 0.95,
 }  # fmt: skip
 LAST, NOW_AND_THEN = 8, 10  # frames that are drawn before a picture
+# What falls, where the day is, and where one looks from.
+KINDS = {
+    "heavy snow": ("heavy_snow", "afternoon", False),
+    "light snow": ("light_snow", "afternoon", False),
+    "a blizzard": ("blizzard", "afternoon", False),
+    "sleet": ("sleet", "afternoon", False),
+    "by the lamps, at dusk": ("heavy_snow", "dusk", False),
+    "from afar": ("heavy_snow", "afternoon", True),
+}
+LAMP = -2.6, -40.0, -19.0, -3.0  # x, z in m, yaw and pitch in degrees
 CABIN = (-0.5, 1.2, -46.5), (5.0, 1.3, -60.0)  # eye, and what it looks at
 
 
@@ -113,7 +123,20 @@ def snow(stage: Stage, out: Path) -> None:
     save_sheet(out, pictures, list(SHARES), columns=2, width=480, quality=78)
 
 
-SHEETS = {"presets": presets, "gust": gust, "snow": snow}
+def kinds(stage: Stage, out: Path) -> None:
+    """What snow looks like: much and little of it, blown, half melted, by lamps, from afar."""
+    pictures = []
+    for preset, time, afar in KINDS.values():
+        game = stage.game(preset=preset)
+        game.sky.be(time)
+        stage.look(*(ALONG_THE_PATH if afar else LAMP))
+        stage.settle(game, 60, 20)
+        pictures.append(_later(stage, game, BEFORE))
+        game.close()
+    save_sheet(out, pictures, list(KINDS), columns=2, width=640, quality=72)
+
+
+SHEETS = {"presets": presets, "gust": gust, "snow": snow, "kinds": kinds}
 
 
 def draw(out: Path, arguments: list[str]) -> None:
