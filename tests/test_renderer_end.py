@@ -19,7 +19,10 @@ from tests.boxes import CORNERS, TRIANGLES, box, placed
 from tests.gl_names import living
 from tests.rain_frames import area, camera, frame, quality
 from tests.renderer_scene import far, near
+from tests.views import look_from, perspective
 from tests.weather_pictures import Stage, stage
+from tests.worlds import fresh_world
+from weather_ecs import Weather
 from weather_ecs.components import (
     Observer,
     Occluder,
@@ -32,6 +35,7 @@ from weather_ecs.errors import ContextError
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.renderer import Renderer
 from weather_ecs.physics.ellipse import edge_factor
+from weather_ecs.systems import WeatherProcessor
 from weather_ecs.systems.rain_view import RainView
 
 
@@ -55,6 +59,68 @@ def test_close_gives_everything_back(ctx: moderngl.Context, gl: GL, backend: str
         made.weather.close()
         made.weather.close()
     assert living(gl) == before
+
+
+def drawn_in(context: moderngl.Context) -> tuple[Weather, list[Any]]:
+    """A weather that has drawn into a context, and what it has drawn into."""
+    target = context.simple_framebuffer((16, 9))
+    target.use()
+    weather = Weather(context=context, quality="low")
+    esper.create_entity(near())
+    esper.process(0.1)
+    weather.draw(look_from((0.0, 1.7, 0.0), 0.0), perspective())
+    return weather, [target, *target.color_attachments, target.depth_attachment]
+
+
+def test_close_in_another_context_may_be_tried_again(
+    ctx: moderngl.Context, gl: GL, world: str
+) -> None:
+    before = living(gl)
+    weather, things = drawn_in(ctx)
+    other = moderngl.create_context(standalone=True, backend="egl")
+    with other, pytest.raises(ContextError, match="not current"):
+        weather.close()
+    assert esper.get_processor(WeatherProcessor) is None
+    other.release()
+    ctx.__enter__()
+    weather.close()
+    weather.close()
+    for thing in things:
+        thing.release()
+    assert living(gl) == before
+
+
+def test_a_context_that_was_released_first(ctx: moderngl.Context, world: str) -> None:
+    own = moderngl.create_context(standalone=True, backend="egl")
+    try:
+        weather, _ = drawn_in(own)
+        own.release()
+        with pytest.raises(ContextError, match="released"):
+            weather.draw(look_from((0.0, 1.7, 0.0), 0.0), perspective())
+        weather.close()
+        weather.close()
+        assert esper.get_processor(WeatherProcessor) is None
+    finally:
+        ctx.__enter__()
+
+
+def test_what_a_game_holds_outlives_another_seed(made: Stage, gl: GL) -> None:
+    """A client that takes over its server's weather goes on with its maps."""
+    with fresh_world(), Weather(seed=77) as server:
+        esper.create_entity(near())
+        others = server.snapshot()
+    esper.create_entity(Occluder(CORNERS, TRIANGLES, placed((0, -1, 0), (90, 1, 90))))
+    weather = made.weather
+    made.play(2)
+    held = [weather.wetness(), weather.heightmap(), weather.sky(), weather.air()]
+    program = made.ctx.program(vertex_shader="#version 330\nvoid main() {gl_Position = vec4(0);}")
+    weather.restore(others)
+    assert made.rain(made.play(2)).mean() > 1.0
+    assert held == [weather.wetness(), weather.heightmap(), weather.sky(), weather.air()]
+    for thing in held:
+        thing.use(program)
+    program.release()
+    assert gl.error() == 0
 
 
 def test_a_renderer_that_was_released(ctx: moderngl.Context) -> None:

@@ -58,6 +58,9 @@ class FakeRenderer:
     def forget(self, key: int) -> None:
         self.forgotten.append(key)
 
+    def reseed(self, seed: int) -> None:
+        self.seed = seed
+
     def release(self) -> None:
         self.released += 1
 
@@ -292,18 +295,22 @@ def test_an_area_that_dies_between_process_and_draw(made):
 
 def test_a_snapshot_with_another_seed_gets_other_drops(made):
     weather = Weather(context=object(), seed=1)
+    esper.create_entity(RainArea((0, 0), (60, 40), 25.0))
     same = weather.snapshot()
     weather.draw(np.eye(4), PROJECTION)
     weather.restore(same)
     weather.draw(np.eye(4), PROJECTION)
     assert len(made) == 1
     with fresh_world(), Weather(seed=2) as server:
+        esper.create_entity(RainArea((0, 0), (60, 40), 25.0))
         other = server.snapshot()
     weather.restore(other)
     weather.draw(np.eye(4), PROJECTION)
-    assert [renderer.seed for renderer in made] == [1, 2]
-    assert (made[0].released, made[1].released) == (1, 0)
-    assert len(made[1].drawn) == 1
+    assert [renderer.seed for renderer in made] == [2]
+    assert made[0].released == 0
+    first, second, third = (view.containers[0].births for view, _ in made[0].drawn)
+    assert first is second
+    assert not np.array_equal(first, third)
 
 
 def test_auto_learns_from_frames_and_not_from_draws(made, monkeypatch):

@@ -261,31 +261,31 @@ class Weather(Contents):
             return Renderer(context, backend=self._asked_backend, seed=self._state.seed)
 
     def _ready_renderer(self) -> Renderer:
-        """The renderer; made anew, with the view, where a snapshot has brought another seed."""
-        if self._renderer is not None and self._view_seed != self._state.seed:
-            self._renderer.release()
-            self._renderer = None
+        """The renderer; with other drops where a snapshot has brought another seed."""
         if self._renderer is None:
             self._renderer = self._make_renderer()
-            self._view = RainView(self._state.seed)
-            self._view_seed = self._state.seed
+        if self._view_seed != self._state.seed:
+            self._renderer.reseed(self._state.seed)
+            self._view, self._view_seed = RainView(self._state.seed), self._state.seed
         for key in self._keys.retired():
             self._view.forget(key)
             self._renderer.forget(key)
         return self._renderer
 
     def close(self) -> None:
-        """Give back every OpenGL object and leave esper's world; a second time does nothing."""
-        if self._closed:
-            return
+        """Give back every OpenGL object and leave esper's world; a second time does nothing.
+
+        Raises ContextError where the `context` it was made with is not current: once it is, a
+        second time gives back the rest.
+        """
         super().close()
-        renderer, self._renderer = self._renderer, None
-        if renderer is None:
+        if self._renderer is None:
             return
-        if self._window is not None and self._window.context is None:
-            return  # its objects went with the window
-        with current(self._window):
-            renderer.release()
+        # Of a closed window, its objects went with it.
+        if self._window is None or self._window.context is not None:
+            with current(self._window):
+                self._renderer.release()
+        self._renderer = None
 
     def _processed(self) -> None:
         self._cost.processed()

@@ -15,6 +15,7 @@ REQUIRED = 330
 COMPUTE = 430
 # Invocations in a work group that the kernels ask for.
 GROUP_SIZE = 128
+RELEASED = "the moderngl context was released"
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +36,11 @@ def probe(ctx: moderngl.Context, gl: GL | None = None) -> Capabilities:
     )
 
 
+def is_released(ctx: moderngl.Context) -> bool:
+    """Whether a context is no more, and with it all that was made in it."""
+    return isinstance(ctx.mglo, moderngl.InvalidObject)
+
+
 def obtain(context: moderngl.Context | None = None) -> moderngl.Context:
     """`context` if it can be used, else moderngl's context for what is current.
 
@@ -44,8 +50,8 @@ def obtain(context: moderngl.Context | None = None) -> moderngl.Context:
     if context is not None:
         if not isinstance(context, moderngl.Context):
             raise InvalidValueError("context", context, "a moderngl.Context or None")
-        if isinstance(context.mglo, moderngl.InvalidObject):
-            raise ContextError("the moderngl context was released")
+        if is_released(context):
+            raise ContextError(RELEASED)
     gl = GL()
     require(gl.version, gl.get_string(e.VERSION))
     if context is not None:

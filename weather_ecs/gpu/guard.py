@@ -12,6 +12,7 @@ import moderngl
 from weather_ecs.errors import ContextError
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.blocks import slot_count
+from weather_ecs.gpu.context import RELEASED, is_released
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.saved_state import SavedState
 
@@ -97,6 +98,8 @@ class StateGuard:
     def _check(self) -> None:
         if self._scope is None:
             raise ContextError("the state guard was released")
+        if is_released(self.ctx):
+            raise ContextError(RELEASED)
         if not self.gl.is_current():
             raise ContextError("the weather's OpenGL context is not current in this thread")
 

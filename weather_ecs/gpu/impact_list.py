@@ -12,6 +12,7 @@ COUNT_BYTES = 16  # written and dropped, ever; the same when the frame began
 # After these: the work groups for what has sunk in a step, three words, and how much that is; then
 # the same at rest, to copy from. As in impact_counts.glsl.
 _STEP, _AT_REST = 16, 32
+SMALLEST, LARGEST = 4096, 65_536  # impacts; every reader goes over the whole list
 SUNK_BYTES = 16  # a drop's place before the step, and which it is
 IMPACT_DTYPE = np.dtype(
     [
@@ -81,3 +82,20 @@ class ImpactList:
         self.records.release()
         self.sunk.release()
         self.counts.release()
+
+
+def list_for(
+    ctx: moderngl.Context, drops: int, known: ImpactList | None, capacity: int | None = None
+) -> ImpactList:
+    """A list with room for what so many drops hit: `known`, if it has; of very many, the newest.
+
+    capacity: that of the list, whatever the drops.
+    """
+    room = min(max(SMALLEST, drops // 4), LARGEST) if capacity is None else capacity
+    # At 10 m/s a sixteenth of the drops comes down in a step of 0.1 s, of 16 m or higher.
+    step = min(room, max(drops // 16, 1024)) if capacity is None else capacity
+    if known is not None:
+        if known.capacity >= room and known.step >= step:
+            return known
+        known.release()
+    return ImpactList(ctx, room, step)

@@ -12,7 +12,7 @@ from weather_ecs.gpu.air_block import AirBlock
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.compute_order import ComputeOrder
 from weather_ecs.gpu.drop_set import DropSet
-from weather_ecs.gpu.impact_list import ImpactList
+from weather_ecs.gpu.impact_list import ImpactList, list_for
 from weather_ecs.gpu.impact_times import ImpactTimes, in_epoch
 from weather_ecs.gpu.kind_programs import MOTION_UNIT as MOTION_UNIT
 from weather_ecs.gpu.kind_programs import SHELTER_UNIT as SHELTER_UNIT
@@ -22,7 +22,6 @@ from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.streak_list import StreakList
 
 GROUP = 64 * 32  # drops that a work group of rain_step.comp moves
-SMALLEST_LIST, LARGEST_LIST = 4096, 65_536  # impacts; every reader goes over the whole list
 # A set that no view has used for so many draws is given back.
 _KEPT_DRAWS = 600
 # The last tenth of the drops in use fades in; also in systems/rain_view.py.
@@ -120,7 +119,8 @@ class RainPass:
         if seen is None:
             seen = self._observed[view.key] = _Observed({}, None)
         if self._lists:
-            self._make_room(seen, view)
+            most = max((len(each.births) for each in view.containers), default=0)
+            seen.impacts = list_for(self._ctx, most, seen.impacts, self._capacity)
         if seen.impacts is not None:
             self._times.follow(seen.impacts, view.frame.time)
             if sheltered:
@@ -143,20 +143,6 @@ class RainPass:
                 seen.sets.pop(key).release()
         self._forget()
         return moved
-
-    def _make_room(self, seen: _Observed, view: ViewData) -> None:
-        """A list of impacts that grows with the drops; of very many, it holds the newest."""
-        drops = max((len(container.births) for container in view.containers), default=0)
-        wanted = min(max(SMALLEST_LIST, drops // 4), LARGEST_LIST)
-        # At 10 m/s a sixteenth of the drops comes down in a step of 0.1 s, of 16 m or higher.
-        step = min(wanted, max(drops // 16, 1024))
-        if self._capacity is not None:
-            wanted = step = self._capacity
-        known = seen.impacts
-        if known is None or known.capacity < wanted or known.step < step:
-            if known is not None:
-                known.release()
-            seen.impacts = ImpactList(self._ctx, wanted, step)
 
     def _move(
         self,
@@ -286,6 +272,12 @@ class RainPass:
             drops.release()
         if seen.impacts is not None:
             seen.impacts.release()
+
+    def reseed(self, seed: int) -> None:
+        """Other chances from here on, and other drops."""
+        self._seed = seed
+        for observer in list(self._observed):
+            self.forget(observer)
 
     def release(self) -> None:
         """Give every buffer back; twice does no harm."""

@@ -12,7 +12,7 @@ from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.cloud_pass import CloudPass, CloudSettings
 from weather_ecs.gpu.cloud_shadow import CloudShadow
 from weather_ecs.gpu.collision_maps import CollisionMaps
-from weather_ecs.gpu.context import probe
+from weather_ecs.gpu.context import is_released, probe
 from weather_ecs.gpu.gauge_pass import GaugePass
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
@@ -258,12 +258,25 @@ class Renderer:
             if air is not None:
                 air.release()
 
+    def reseed(self, seed: int) -> None:
+        """Other chances for the drops from here on; those that are in the air are gone."""
+        with self._guard:
+            self._rain.reseed(seed)
+        self._prepared = None
+
     def release(self) -> None:
-        """Give back every OpenGL object, in reverse order; twice does no harm."""
+        """Give back every OpenGL object, in reverse order; twice does no harm.
+
+        Raises ContextError, and keeps all, where the context is not current; of one that was
+        released nothing is left.
+        """
         if self._released:
             return
-        self._released = True
+        if is_released(self._ctx):
+            self._released = True
+            return
         with self._guard:
+            self._released = True
             for air in self._airs.values():
                 air.release()
             self._kept.release()
