@@ -21,6 +21,7 @@ from weather_ecs.presets import PRESETS, SKIES
 DEFAULT_OUT = Path("out") / "demo"
 LARGEST_SIZE = 8192
 MOST_FRAMES = 1_000_000
+FILMS = (".mp4", ".mkv", ".mov", ".avi")  # that hold what the encoder writes
 INTERRUPTED = 130  # what a shell calls Ctrl-C
 
 
@@ -89,6 +90,12 @@ def _preset(text: str) -> str:
         return text
     allowed = ", ".join((*PRESETS, *_OTHER_SKIES))
     raise argparse.ArgumentTypeError(f"got {text!r}, allowed: {allowed}, or a file, NAME.toml")
+
+
+def _film(text: str) -> Path:
+    if not text.lower().endswith(FILMS):
+        raise argparse.ArgumentTypeError(f"got {text!r}, allowed: a file {', '.join(FILMS)}")
+    return Path(text)
 
 
 def _report(text: str) -> Any:
@@ -188,7 +195,7 @@ def build_parser() -> argparse.ArgumentParser:
     )
     add(
         "--video",
-        type=Path,
+        type=_film,
         metavar="FILE",
         default=None,
         help="a film of the tour, such as walk.mp4 (needs imageio-ffmpeg)",

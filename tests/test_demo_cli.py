@@ -158,6 +158,8 @@ BAD = [
     (("--start", "nan,0"), "X -200 to 200"),
     (("--start=0,-900",), "Z -240 to 160"),
     (("--fram", "3"), "--fram"),
+    (("--video", "walk.txt"), ".mp4, .mkv, .mov, .avi"),
+    (("--video", "walk"), "--video"),
 ]
 
 
