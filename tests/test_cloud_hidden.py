@@ -11,7 +11,7 @@ import pytest
 
 from tests.cloud_stage import CloudStage, cloud_stage, clouds, shape, sky_frame, view_of
 from weather_ecs.frame import VeilData, ViewData
-from weather_ecs.gpu import cloud_pass
+from weather_ecs.gpu import cloud_hidden
 from weather_ecs.gpu.cloud_hidden import OPAQUE, hidden_below
 from weather_ecs.gpu.cloud_scene import left_by_haze, scene_of
 from weather_ecs.gpu.veil_list import rays
@@ -39,7 +39,7 @@ def view(extinction: float, y: float = 2.0, frame: object = FRAME) -> ViewData:
 
 def low(stage: CloudStage, seen: ViewData) -> float:
     stage.passes.update(seen, stage.settings, 108)
-    return hidden_below(seen, scene_of(seen, stage.passes.store, 108))
+    return hidden_below(seen, scene_of(seen, stage.passes.store, 108))[0]
 
 
 def test_all_below_the_height_is_behind_opaque_rain_and_what_is_above_is_not(
@@ -76,7 +76,7 @@ def test_the_picture_is_the_same(stage: CloudStage, monkeypatch: pytest.MonkeyPa
     pictures = []
     for hides in (True, False):
         if not hides:
-            monkeypatch.setattr(cloud_pass, "hidden_below", lambda view, scene: -1.0)
+            monkeypatch.setattr(cloud_hidden, "hidden_below", lambda view, scene: (-1.0, -1.0))
         for extinction in (0.0, 0.008):
             stage.target.use()
             stage.target.clear(*stage.background, depth=1.0)

@@ -82,7 +82,8 @@ def shared_octagon(
     rim = old_quads[:, :1] + _octagon(old_cuts) @ old_quads[:, 1:]
     normal = cross(axes[:, 0], axes[:, 1])[..., None]
     depth, there = rim @ normal, middle @ normal
-    fits = (depth * np.sign(there) > np.abs(there) / WIDEST).all(axis=(1, 2))
+    before = depth * np.sign(there) > np.abs(there) / WIDEST
+    fits: NDArray[np.bool_] = np.logical_and.reduce(before, axis=(1, 2))
     on = rim * (there / np.where(fits[:, None, None], depth, 1.0)) - middle
     dual = axes / np.maximum((axes * axes).sum(axis=2, keepdims=True), 1e-12)
     at = np.concatenate([on @ dual.transpose(0, 2, 1), _octagon(cuts)], axis=1)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from weather_ecs.frame import ViewData
 from weather_ecs.gpu.cloud_groups import Group, find_groups
-from weather_ecs.gpu.cloud_hidden import Window, hidden_below
+from weather_ecs.gpu.cloud_hidden import Window
 from weather_ecs.gpu.cloud_impostors import Impostors, Plan
 from weather_ecs.gpu.cloud_items import INSIDE, items_of, meeting, picture_kinds
 from weather_ecs.gpu.cloud_kit import CloudSettings, make_kit
@@ -77,6 +77,10 @@ class CloudPass:
             self._store.update((), 0.0)
         return False
 
+    def sky_low(self, view: ViewData) -> float:
+        """Height in the picture, -1 to 1, below which rain hides the sky; -1: nowhere."""
+        return self._window.sky_low(view)
+
     def update(self, view: ViewData, settings: CloudSettings, height: int) -> None:
         """Bring the shapes up to date and take the pictures that this draw may take.
 
@@ -89,12 +93,12 @@ class CloudPass:
         scene = self._scene = scene_of(view, store, height)
         light = surround_of(view)
         self.shadows.update(view, scene, store, self._programs.images)
-        self._window.low = hidden_below(view, scene)
+        self._window.find(view, scene)
         if self._window.low >= 1.0:
             scene.hide()
         impostors = self._impostors(view.key, settings)
         impostors.follow(scene, light_numbers(view, light), dt)
-        plan = self._plan_now = self._plan(scene, impostors, settings)
+        plan = self._plan(scene, impostors, settings)
         self._haze = haze_of(view, light, scene.center)
         self._arrange(view.key, scene, plan, dt)
         taken = np.array([index for index, _ in plan.take], np.intp)
@@ -125,10 +129,10 @@ class CloudPass:
         assert store is not None
         if not self.impostors_on:
             return Plan(np.flatnonzero(scene.visible), [])
-        numbers = np.array([(s.data.key, s.versions, len(s.position)) for s in store.shapes])
-        numbers = numbers.reshape(-1, 3)[scene.shapes]
+        versions = np.array([shape.versions for shape in store.shapes], np.int64)
         return impostors.plan(
-            scene, numbers[:, :2], numbers[:, 2],
+            scene, np.stack([store.keys, versions], axis=1)[scene.shapes],
+            store.counts[scene.shapes],
             settings.cloud_billboards, settings.cloud_impostors, settings.cloud_tile,
         )  # fmt: skip
 

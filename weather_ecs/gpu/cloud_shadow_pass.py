@@ -6,6 +6,8 @@ with the clouds. Nothing is done for observers whose shadows nobody has asked fo
 
 from __future__ import annotations
 
+import math
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +26,9 @@ SIZE = 256  # texels on a side
 SIDE = 12_000.0  # m
 LOWEST_SUN = 0.12  # sine of its height; below, shadows grow no longer but fainter
 BILLBOARDS = 600  # painted in one draw
+REST = 0.5  # s, weather time, from one map to the next: clouds change less than a texel meanwhile
+TURNED = 0.002  # of the sun's direction, and
+WALKED = 0.01  # of a map's side, the camera's way: after more there is no rest
 
 
 class ShadowMap:
@@ -96,13 +101,18 @@ class CloudShadowPass:
         if not view.frame.cloud_look.shadows:
             self.clear(view.key)
             return
+        if found.left is None and _rests(found, view):
+            self._place(found, view)
+            return
         if found.left is None:
             self._begin(found, view, scene)
         keys = scene.clouds["key"]
         # As many clouds as the budget allows; at least one.
         assert found.left is not None
-        left = np.flatnonzero(np.isin(keys, found.left))
-        counts = np.array([len(s.position) for s in store.shapes])[scene.shapes[left]]
+        wanted = set(found.left.tolist())
+        places = [place for place, key in enumerate(keys.tolist()) if key in wanted]
+        left = np.array(places, np.intp)
+        counts = store.counts[scene.shapes[left]]
         most = max(int(np.searchsorted(np.cumsum(counts), BILLBOARDS, side="right")), 1)
         if found.front is None:
             most = len(left)  # the first map at once: nobody shall see it come
@@ -116,8 +126,7 @@ class CloudShadowPass:
 
     def _begin(self, found: ShadowMap, view: ViewData, scene: CloudScene) -> None:
         """A new map: what is to be in it, where it lies."""
-        sun = np.array(view.frame.sky.sun_direction, np.float64)
-        sun[1] = max(sun[1], LOWEST_SUN)
+        sun = _sun(view)
         found.sun, found.begun = sun, view.frame.time
         x, y, z = view.position
         ground = view.frame.profile.ground
@@ -188,6 +197,26 @@ class CloudShadowPass:
             self._program = None
             for thing in (self._array, self._stream, self._rows):
                 thing.release()
+
+
+def _rests(found: ShadowMap, view: ViewData) -> bool:
+    """Whether the map that is shown is good for a while; while time stands still it is painted on,
+    as someone may be at work on the clouds.
+    """
+    if found.front is None or view.dt <= 0.0:
+        return False
+    middle, sun, begun, _ = found.front
+    turned = np.abs(_sun(view) - sun).max()
+    way = math.hypot(view.position[0] - middle[0], view.position[2] - middle[2])
+    rests = 0.0 <= view.frame.time - begun < REST
+    return bool(rests and turned < TURNED and way < WALKED * SIDE)
+
+
+def _sun(view: ViewData) -> NDArray[np.float64]:
+    """Towards it, not too low."""
+    sun = np.array(view.frame.sky.sun_direction, np.float64)
+    sun[1] = max(sun[1], LOWEST_SUN)
+    return sun
 
 
 def shadow_places(center: NDArray, sun: NDArray) -> NDArray[np.float64]:

@@ -107,7 +107,7 @@ class CloudStore:
         self.base = self.reach = self.thick = self.detail = np.zeros(0)
         self.wide = self.wide_top = np.zeros(0)
         self.low = self.high = np.zeros((0, 3))
-        self.counts = np.zeros(0, np.intp)
+        self.keys, self.counts = np.zeros(0, np.int64), np.zeros(0, np.intp)
         self._known: dict[int, StoredShape] = {}
         self._tuple: tuple[CloudShapeData, ...] = ()
         self._fading: set[int] = set()
@@ -134,6 +134,7 @@ class CloudStore:
             self.wide_top = np.array([s.wide_top for s in stored])
             self.low = np.array([s.low for s in stored]).reshape(-1, 3)
             self.high = np.array([s.high for s in stored]).reshape(-1, 3)
+            self.keys = np.array([s.data.key for s in stored], np.int64)
             self.counts = np.array([len(s.position) for s in stored], np.intp)
             self.thick = np.array([1.0 / max(s.data.penetration, 1e-3) for s in stored])
         if len(self._known) > len(shapes):

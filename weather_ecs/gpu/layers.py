@@ -9,7 +9,7 @@ import numpy as np
 
 from weather_ecs.frame import FrameData, ViewData
 from weather_ecs.gpu.bolt_pass import NO_RAIN, BoltPass, Rain
-from weather_ecs.gpu.cloud_hidden import Window, opaque_below
+from weather_ecs.gpu.cloud_hidden import Window
 from weather_ecs.gpu.cloud_pass import Between, CloudPass
 from weather_ecs.gpu.collision_maps import CollisionMaps
 from weather_ecs.gpu.depth import DepthCopy
@@ -150,7 +150,7 @@ class Layers:
             self._guard.bind_framebuffer()
         if self._sky.draws(view) and self._depth.available(self._guard):
             self._gl.glDepthMask(0)
-            window = Window(self._gl, opaque_below(view), self._guard.viewport)
+            window = Window(self._gl, self._clouds.sky_low(view), self._guard.viewport)
             window.on()
             self._sky.draw(view, height)
             window.off()

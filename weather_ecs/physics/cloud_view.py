@@ -7,11 +7,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from weather_ecs.physics.vectors import cross
+
+# What of the columns x, y, z, w of the clip space makes the six sides; the last is put in apart.
+_SIDES = np.array(
+    [(1, 0, 0, 1), (-1, 0, 0, 1), (0, 1, 0, 1), (0, -1, 0, 1), (0, 0, 1, 1), (0, 0, 0, 1)],
+    np.float64,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,35 +35,34 @@ def frustum(view: NDArray, projection: NDArray, reach: float) -> Frustum:
 
     Hosts put their far plane behind their scene, which clouds are well beyond.
     """
-    rotation = np.eye(4)
-    rotation[:3, :3] = view[:3, :3]
-    m = projection @ rotation
-    forward = -view[2, :3] / np.linalg.norm(view[2, :3])
-    planes = np.array([m[3] + m[0], m[3] - m[0], m[3] + m[1], m[3] - m[1], m[3] + m[2], m[3]])
-    planes[5] = (*-forward, reach)
-    planes /= np.linalg.norm(planes[:, :3], axis=1)[:, None]
-    near, far = _corners(view, projection, forward, reach)
-    # Of the spheres about a point of the axis, the smallest through near and far corners.
-    tn, tf = float((near @ forward).max()), reach
-    rn, rf = float((near**2).sum(axis=1).max()), float((far**2).sum(axis=1).max())
-    center = min(max((rf - rn) / max(2.0 * (tf - tn), 1e-9), 0.0), reach) * forward
-    corners = np.concatenate([near, far])
-    return Frustum(planes, center, float(np.linalg.norm(corners - center, axis=1).max()))
+    rotation = view[:3, :3]
+    m = np.empty((4, 4))
+    m[:, :3], m[:, 3] = projection[:, :3] @ rotation, projection[:, 3]
+    forward = -rotation[2] / math.sqrt(rotation[2] @ rotation[2])
+    planes = _SIDES @ m
+    planes[5, :3], planes[5, 3] = -forward, reach
+    planes /= np.sqrt((planes[:, :3] ** 2).sum(axis=1))[:, None]
+    ahead, radius = _sphere(np.asarray(projection, np.float64).tobytes(), reach)
+    return Frustum(planes, ahead * forward, radius)
 
 
-def _corners(
-    view: NDArray, projection: NDArray, forward: NDArray, reach: float
-) -> tuple[NDArray, NDArray]:
-    """The four near and four far corners."""
-    inverse = np.linalg.inv(projection)
+@lru_cache(maxsize=16)
+def _sphere(projection: bytes, reach: float) -> tuple[float, float]:
+    """How far ahead of the camera the middle of the sphere round its frustum is, and its radius."""
+    inverse = np.linalg.inv(np.frombuffer(projection).reshape(4, 4))
     signs = np.array([(x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
     ends = []
     for depth in (-1.0, 0.0):
         clip = np.column_stack([signs, np.full(4, depth), np.ones(4)]) @ inverse.T
-        ends.append(clip[:, :3] / clip[:, 3:] @ view[:3, :3])
+        ends.append(clip[:, :3] / clip[:, 3:])
     near, ray = ends[0], ends[1] - ends[0]
-    step = (reach - near @ forward) / np.maximum(ray @ forward, 1e-12)
-    return near, near + ray * step[:, None]
+    far = near + ray * ((reach + near[:, 2]) / np.maximum(-ray[:, 2], 1e-12))[:, None]
+    # Of the spheres about a point of the axis, the smallest through near and far corners.
+    tn, tf = float(-near[:, 2].min()), reach
+    rn, rf = float((near**2).sum(axis=1).max()), float((far**2).sum(axis=1).max())
+    ahead = min(max((rf - rn) / max(2.0 * (tf - tn), 1e-9), 0.0), reach)
+    corners = np.concatenate([near, far]) + (0.0, 0.0, ahead)
+    return ahead, float(np.linalg.norm(corners, axis=1).max())
 
 
 def visible(seen: Frustum, centers: NDArray, radii: NDArray) -> NDArray[np.bool_]:
