@@ -9,6 +9,7 @@ from typing import NamedTuple
 import moderngl
 
 from weather_ecs.gpu import gl_enums as e
+from weather_ecs.gpu.by_size import BySize
 from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.guard import StateGuard
 
@@ -38,8 +39,76 @@ class Source(NamedTuple):
     samples: int
 
 
+class _Copy:
+    """A depth texture of a size, to be filled by a blit or by a copy of texels."""
+
+    def __init__(
+        self, ctx: moderngl.Context, gl: GL, internal: int, size: tuple[int, int], blit: bool
+    ) -> None:
+        self._gl, self._size, self._blit = gl, size, blit
+        self._unit = e.TEXTURE0 + ctx.default_texture_unit
+        self._texture_name, self._framebuffer_name = ctypes.c_uint(), ctypes.c_uint()
+        gl.glGenTextures(1, ctypes.addressof(self._texture_name))
+        gl.glActiveTexture(self._unit)
+        name = self._texture_name.value
+        gl.glBindTexture(e.TEXTURE_2D, name)
+        layout, kind = UPLOAD.get(internal, (e.DEPTH_COMPONENT, e.FLOAT))
+        gl.glTexImage2D(e.TEXTURE_2D, 0, internal, *size, 0, layout, kind, None)
+        for parameter, value in (
+            (e.TEXTURE_MIN_FILTER, e.NEAREST),
+            (e.TEXTURE_MAG_FILTER, e.NEAREST),
+            (e.TEXTURE_WRAP_S, e.CLAMP_TO_EDGE),
+            (e.TEXTURE_WRAP_T, e.CLAMP_TO_EDGE),
+        ):
+            gl.glTexParameteri(e.TEXTURE_2D, parameter, value)
+        gl.glGenFramebuffers(1, ctypes.addressof(self._framebuffer_name))
+        gl.glBindFramebuffer(e.DRAW_FRAMEBUFFER, self._framebuffer_name.value)
+        point = e.DEPTH_STENCIL_ATTACHMENT if internal in UPLOAD else e.DEPTH_ATTACHMENT
+        gl.glFramebufferTexture2D(e.DRAW_FRAMEBUFFER, point, e.TEXTURE_2D, name, 0)
+        gl.glDrawBuffer(e.NONE)
+        self.texture: moderngl.Texture | None = ctx.external_texture(name, size, 1, 0, "f4")
+
+    def usable(self) -> bool:
+        """Whether the driver can blit into it, where it has to; right after it was made."""
+        status = self._gl.glCheckFramebufferStatus(e.DRAW_FRAMEBUFFER)
+        return not self._blit or status == e.FRAMEBUFFER_COMPLETE
+
+    def fill(self, x: int, y: int) -> None:
+        """From the framebuffer that is bound for reading, from a pixel on; binds others."""
+        gl, (width, height) = self._gl, self._size
+        if self._blit:
+            gl.glBindFramebuffer(e.DRAW_FRAMEBUFFER, self._framebuffer_name.value)
+            gl.glBlitFramebuffer(
+                x, y, x + width, y + height, 0, 0, width, height, e.DEPTH_BUFFER_BIT, e.NEAREST
+            )
+        else:
+            gl.glActiveTexture(self._unit)
+            gl.glBindTexture(e.TEXTURE_2D, self._texture_name.value)
+            gl.glCopyTexSubImage2D(e.TEXTURE_2D, 0, 0, 0, x, y, width, height)
+
+    def release(self) -> None:
+        """Give texture and framebuffer back; twice does no harm."""
+        if self.texture is not None:
+            self.texture.release()
+            self.texture = None
+            self._gl.glDeleteFramebuffers(1, ctypes.addressof(self._framebuffer_name))
+            self._gl.glDeleteTextures(1, ctypes.addressof(self._texture_name))
+
+
+class _NoCopy:
+    """Stands for that of a source that the driver cannot copy."""
+
+    texture = None
+
+    def fill(self, x: int, y: int) -> None:
+        """Nothing."""
+
+    def release(self) -> None:
+        """Nothing."""
+
+
 class DepthCopy:
-    """Keeps a depth texture of the viewport's size and fills it from the host's framebuffer.
+    """Keeps a depth texture of each viewport's size and fills it from the host's framebuffer.
 
     Texel (0, 0) is the viewport's lower left corner; values are window depth in [0, 1].
     """
@@ -47,12 +116,8 @@ class DepthCopy:
     def __init__(self, ctx: moderngl.Context, gl: GL) -> None:
         self._ctx = ctx
         self._gl = gl
-        self._texture: moderngl.Texture | None = None
-        self._made_for: tuple[Source, int, int] | None = None
-        self._blit = True
+        self._copies: BySize[_Copy | _NoCopy] = BySize()
         self._told = False
-        self._texture_name = ctypes.c_uint()
-        self._framebuffer_name = ctypes.c_uint()
 
     def copy(self, guard: StateGuard) -> moderngl.Texture | None:
         """The depth under the host's viewport as it is now; its framebuffer is bound afterwards.
@@ -66,13 +131,12 @@ class DepthCopy:
             if source is None:
                 self._tell("the framebuffer has no depth buffer")
             return None
-        key = (source, width, height)
-        if key != self._made_for:
-            self._made_for = key
-            self._make(guard, source, x, y, width, height)
-        elif self._texture is not None:
-            self._transfer(guard, x, y, width, height)
-        return self._texture
+        found = self._copies.get(
+            (source, width, height), lambda: self._make(guard, source, (width, height))
+        )
+        found.fill(x, y)
+        guard.bind_framebuffer()
+        return found.texture
 
     def available(self, guard: StateGuard) -> bool:
         """Whether the host's framebuffer, which is bound afterwards, has a depth."""
@@ -97,10 +161,8 @@ class DepthCopy:
     def _attached(self, attachment: int, name: int) -> int:
         return self._gl.get_attachment(e.DRAW_FRAMEBUFFER, attachment, name)
 
-    def _make(
-        self, guard: StateGuard, source: Source, x: int, y: int, width: int, height: int
-    ) -> None:
-        """Find a way that works for this source, the cheaper one on Mesa first."""
+    def _make(self, guard: StateGuard, source: Source, size: tuple[int, int]) -> _Copy | _NoCopy:
+        """A way that works for this source, the cheaper one on Mesa first."""
         gl = self._gl
         exact = FORMATS.get(source[:3], e.DEPTH_COMPONENT24)
         plain = e.DEPTH_COMPONENT32F if source.floating else e.DEPTH_COMPONENT24
@@ -110,73 +172,27 @@ class DepthCopy:
         elif source.stencil_bits:
             # Blitting into a depth-stencil texture carries the stencil along: seven times the cost.
             ways.reverse()
+        x, y, _, _ = guard.viewport
         for blit, internal in ways:
-            self._allocate(internal, width, height)
-            self._blit = blit
+            made = _Copy(self._ctx, gl, internal, size, blit)
             while gl.error():
                 pass
-            complete = not blit or self._complete()
-            if complete:
-                self._transfer(guard, x, y, width, height)
-            if complete and gl.error() == e.NO_ERROR:
-                return
-        self._drop()
-        guard.bind_framebuffer()
+            usable = made.usable()
+            if usable:
+                made.fill(x, y)
+            fine = usable and gl.error() == e.NO_ERROR
+            guard.bind_framebuffer()
+            if fine:
+                return made
+            made.release()
         self._tell(f"the driver cannot copy {source}")
-
-    def _allocate(self, internal: int, width: int, height: int) -> None:
-        self._drop()
-        gl = self._gl
-        gl.glGenTextures(1, ctypes.addressof(self._texture_name))
-        gl.glActiveTexture(e.TEXTURE0 + self._ctx.default_texture_unit)
-        name = self._texture_name.value
-        gl.glBindTexture(e.TEXTURE_2D, name)
-        layout, kind = UPLOAD.get(internal, (e.DEPTH_COMPONENT, e.FLOAT))
-        gl.glTexImage2D(e.TEXTURE_2D, 0, internal, width, height, 0, layout, kind, None)
-        for parameter, value in (
-            (e.TEXTURE_MIN_FILTER, e.NEAREST),
-            (e.TEXTURE_MAG_FILTER, e.NEAREST),
-            (e.TEXTURE_WRAP_S, e.CLAMP_TO_EDGE),
-            (e.TEXTURE_WRAP_T, e.CLAMP_TO_EDGE),
-        ):
-            gl.glTexParameteri(e.TEXTURE_2D, parameter, value)
-        gl.glGenFramebuffers(1, ctypes.addressof(self._framebuffer_name))
-        gl.glBindFramebuffer(e.DRAW_FRAMEBUFFER, self._framebuffer_name.value)
-        point = e.DEPTH_STENCIL_ATTACHMENT if internal in UPLOAD else e.DEPTH_ATTACHMENT
-        gl.glFramebufferTexture2D(e.DRAW_FRAMEBUFFER, point, e.TEXTURE_2D, name, 0)
-        gl.glDrawBuffer(e.NONE)
-        self._texture = self._ctx.external_texture(name, (width, height), 1, 0, "f4")
-
-    def _complete(self) -> bool:
-        status = self._gl.glCheckFramebufferStatus(e.DRAW_FRAMEBUFFER)
-        return status == e.FRAMEBUFFER_COMPLETE
-
-    def _transfer(self, guard: StateGuard, x: int, y: int, width: int, height: int) -> None:
-        gl = self._gl
-        if self._blit:
-            gl.glBindFramebuffer(e.DRAW_FRAMEBUFFER, self._framebuffer_name.value)
-            gl.glBlitFramebuffer(
-                x, y, x + width, y + height, 0, 0, width, height, e.DEPTH_BUFFER_BIT, e.NEAREST
-            )
-        else:
-            gl.glActiveTexture(e.TEXTURE0 + self._ctx.default_texture_unit)
-            gl.glBindTexture(e.TEXTURE_2D, self._texture_name.value)
-            gl.glCopyTexSubImage2D(e.TEXTURE_2D, 0, 0, 0, x, y, width, height)
-        guard.bind_framebuffer()
+        return _NoCopy()
 
     def _tell(self, reason: str) -> None:
         if not self._told:
             self._told = True
             _log.warning("no copy of the scene's depth: %s", reason)
 
-    def _drop(self) -> None:
-        if self._texture is not None:
-            self._texture.release()
-            self._texture = None
-            self._gl.glDeleteFramebuffers(1, ctypes.addressof(self._framebuffer_name))
-            self._gl.glDeleteTextures(1, ctypes.addressof(self._texture_name))
-
     def release(self) -> None:
-        """Give texture and framebuffer back; twice does no harm."""
-        self._drop()
-        self._made_for = None
+        """Give textures and framebuffers back; twice does no harm."""
+        self._copies.release()
