@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from weather_ecs.gpu.feedback_list import FeedbackList
     from weather_ecs.gpu.streak_list import StreakList
 
 # Position and velocity, float32.
 STATE_BYTES = 24
 BIRTH_BYTES = 16
+TOGETHER = 4  # drops that streak_cull.geom takes at a time; buffers with two sides are filled up
 
 
 class DropSet:
@@ -32,17 +34,19 @@ class DropSet:
         two_sided: bool,
     ) -> None:
         self.capacity = len(births)
+        rows = self.capacity
+        if two_sided:
+            rows = -(-rows // TOGETHER) * TOGETHER
+            births = np.pad(births, ((0, rows - self.capacity), (0, 0)))
         self.births = ctx.buffer(np.ascontiguousarray(births, np.float32))
-        self.states = [
-            ctx.buffer(reserve=self.capacity * STATE_BYTES) for _ in range(2 if two_sided else 1)
-        ]
+        self.states = [ctx.buffer(reserve=rows * STATE_BYTES) for _ in range(2 if two_sided else 1)]
         self.current = 0
         self.last_used = 0
         # What the drops were placed by at their last step; None: not placed yet.
         self.placed: tuple[tuple[float, ...], tuple[float, ...]] | None = None
         self.steps = 0
         self.alive = 0  # drops that the last step moved
-        self.streaks: StreakList | None = None  # those in view, where they are listed
+        self.streaks: StreakList | FeedbackList | None = None  # those in view
         self._ctx = ctx
         self._arrays: dict[str, list[moderngl.VertexArray]] = {}
         for name, program in programs.items():
@@ -52,9 +56,11 @@ class DropSet:
         """A program that is run over the drops: `array(name)` is for it from here on."""
         self._arrays[name] = [self._array(program, state, None) for state in self.states]
 
-    def array_for(self, program: moderngl.Program, ids: moderngl.Buffer) -> moderngl.VertexArray:
-        """A vertex array over the drops that `ids` lists; the caller's to release."""
-        return self._array(program, self.states[0], ids)
+    def arrays_for(
+        self, program: moderngl.Program, ids: moderngl.Buffer
+    ) -> list[moderngl.VertexArray]:
+        """Vertex arrays over the drops that `ids` lists, by `current`; the caller's to release."""
+        return [self._array(program, state, ids) for state in self.states]
 
     def _array(
         self, program: moderngl.Program, state: moderngl.Buffer, ids: moderngl.Buffer | None
@@ -73,7 +79,7 @@ class DropSet:
 
     @property
     def bytes_per_drop(self) -> int:
-        listed = 4 if self.streaks is not None else 0
+        listed = self.streaks.bytes_per_drop if self.streaks is not None else 0
         return BIRTH_BYTES + STATE_BYTES * len(self.states) + listed
 
     def release(self) -> None:

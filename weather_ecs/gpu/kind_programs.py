@@ -9,6 +9,8 @@ import moderngl
 
 from weather_ecs.frame import SNOW, ContainerData, ViewData
 from weather_ecs.gpu.blocks import BlockBuffer
+from weather_ecs.gpu.feedback_list import CULL as FEEDBACK_CULL
+from weather_ecs.gpu.feedback_list import CULL_APART, CULL_NAME, has_streams
 from weather_ecs.gpu.flake_blocks import SNOW as SNOW_BLOCK
 from weather_ecs.gpu.flake_blocks import fill_snow
 from weather_ecs.gpu.flake_texture import flake_texture
@@ -28,11 +30,6 @@ PICTURES_UNIT = 0
 def step_name(sheltered: bool, steady: bool) -> str:
     """Of the step with a collision heightmap or not, in air that moves alike everywhere or not."""
     return "sheltered " * sheltered + "steady " * steady + "step"
-
-
-def draw_name(lit: bool) -> str:
-    """Of the array that draws, with lamps or without."""
-    return "lit streak" if lit else "streak"
 
 
 def by_lamps(shaders: ShaderLoader, key: ProgramKey) -> dict[bool, moderngl.Program]:
@@ -58,14 +55,15 @@ class KindPrograms:
                 self.steps[step_name(sheltered, steady)] = program
         # By whether lamps shine on it.
         self.draw = by_lamps(shaders, FLAKE if kind == SNOW else STREAK)
-        # With lists, flakes of a few pixels are drawn without pictures.
-        self.cull: Any = shaders.program(replace(CULL, defines=defines)) if compute else None
-        self.far = by_lamps(shaders, FAR_FLAKE) if compute and kind == SNOW else None
+        # Flakes of a few pixels are drawn without pictures, where they can be listed apart.
+        apart = kind == SNOW and (compute or has_streams(ctx))
+        self.far = by_lamps(shaders, FAR_FLAKE) if apart else None
+        cull = CULL if compute else (CULL_APART if apart else FEEDBACK_CULL)
+        self.cull: Any = shaders.program(replace(cull, defines=(*cull.defines, *defines)))
         # Those that read drops as vertices, by name.
         self.readers: dict[str, moderngl.Program] = {}
         if not compute:
-            self.readers = {draw_name(lit): program for lit, program in self.draw.items()}
-            self.readers |= self.steps
+            self.readers = {CULL_NAME: self.cull, **self.steps}
         self._block: BlockBuffer | None = None
         if kind == SNOW:
             self._block = BlockBuffer(ctx, SNOW_BLOCK)

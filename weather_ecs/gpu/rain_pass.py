@@ -12,11 +12,12 @@ from weather_ecs.gpu.air_block import AirBlock
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.compute_order import ComputeOrder
 from weather_ecs.gpu.drop_set import DropSet
+from weather_ecs.gpu.feedback_list import FeedbackList
 from weather_ecs.gpu.impact_list import ImpactList, list_for
 from weather_ecs.gpu.impact_times import ImpactTimes, in_epoch
 from weather_ecs.gpu.kind_programs import MOTION_UNIT as MOTION_UNIT
 from weather_ecs.gpu.kind_programs import SHELTER_UNIT as SHELTER_UNIT
-from weather_ecs.gpu.kind_programs import KindPrograms, draw_name, step_name
+from weather_ecs.gpu.kind_programs import KindPrograms, step_name
 from weather_ecs.gpu.rain_blocks import DRAW, RAIN_DRAW, RAIN_STEP, STEP
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.streak_list import StreakList
@@ -200,12 +201,15 @@ class RainPass:
             kind = self._kind(container.kind)
             kind.use(container, view, drawing=True)
             count = min(drops_used(container, drops), drops.alive)
-            if kind.cull is None:
-                drops.array(draw_name(lit)).render(moderngl.POINTS, vertices=count)
-                continue
             if drops.streaks is None:
-                drops.streaks = StreakList(self._ctx, drops, kind.draw, kind.far)
-            drops.streaks.draw(kind.cull, count, self._order, lit)
+                drops.streaks = self._list(drops, kind)
+            drops.streaks.draw(kind.cull, count, lit)
+
+    def _list(self, drops: DropSet, kind: KindPrograms) -> StreakList | FeedbackList:
+        """Of those in view, for a set of drops."""
+        if self._lists:
+            return StreakList(self._ctx, drops, kind.draw, kind.far, self._order)
+        return FeedbackList(self._ctx, drops, kind.draw, kind.far)
 
     def bind_blocks(self, view: ViewData) -> None:
         """Bind what drawing reads: the block of containers, and the air's."""

@@ -26,6 +26,7 @@ class ProgramKey:
     """What makes a program: files under `weather_ecs/shaders`, defines, captured varyings.
 
     defines: names or (name, value); their order does not matter.
+    separate: each varying into a buffer of its own.
     """
 
     vertex: str = ""
@@ -34,6 +35,7 @@ class ProgramKey:
     compute: str = ""
     defines: tuple[str | Define, ...] = ()
     varyings: tuple[str, ...] = ()
+    separate: bool = False
 
     def __post_init__(self) -> None:
         if bool(self.compute) == bool(self.vertex):
@@ -96,7 +98,10 @@ class ShaderLoader:
             if key.compute:
                 built: Any = self._ctx.compute_shader(sources["compute"].text)
             else:
-                built = self._ctx.program(**texts, varyings=key.varyings)
+                mode = "separate" if key.separate else "interleaved"
+                built = self._ctx.program(
+                    **texts, varyings=key.varyings, varyings_capture_mode=mode
+                )
         except moderngl.Error as error:
             # moderngl leaves a program that does not compile alive, without a way to release it.
             for left in programs(self._gl) - before:

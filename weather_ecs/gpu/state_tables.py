@@ -68,7 +68,7 @@ INTEGERS: tuple[Row, ...] = (
     ("glPolygonMode", (e.FRONT_AND_BACK,), ((e.POLYGON_MODE, 1),), (e.FILL,)),
     ("glLogicOp", (), ((e.LOGIC_OP_MODE, 1),), None),
     ("glProvokingVertex", (), ((e.PROVOKING_VERTEX, 1),), (e.LAST_VERTEX_CONVENTION,)),
-    ("glPrimitiveRestartIndex", (), ((e.PRIMITIVE_RESTART_INDEX, 1),), None),
+    ("glPrimitiveRestartIndex", (), ((e.PRIMITIVE_RESTART_INDEX, 1),), (-1,)),
     ("glPixelStorei", (e.UNPACK_ALIGNMENT,), ((e.UNPACK_ALIGNMENT, 1),), (1,)),
     ("glPixelStorei", (e.UNPACK_ROW_LENGTH,), ((e.UNPACK_ROW_LENGTH, 1),), (0,)),
     ("glPixelStorei", (e.UNPACK_SKIP_ROWS,), ((e.UNPACK_SKIP_ROWS, 1),), (0,)),

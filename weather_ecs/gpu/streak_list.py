@@ -28,9 +28,11 @@ class StreakList:
         ctx: moderngl.Context,
         drops: DropSet,
         draw: Mapping[bool, moderngl.Program],
-        far: Mapping[bool, moderngl.Program] | None = None,
+        far: Mapping[bool, moderngl.Program] | None,
+        order: ComputeOrder,
     ) -> None:
         self.drops = drops
+        self._order = order
         self._ids = ctx.buffer(reserve=4 * drops.capacity)
         chunks = -(-drops.capacity // CHUNK)
         self._commands = ctx.buffer(reserve=COMMAND_BYTES * chunks * (2 if far else 1))
@@ -38,14 +40,16 @@ class StreakList:
         self._far = self._made(far or {})
 
     def _made(self, programs: Mapping[bool, moderngl.Program]) -> dict[bool, moderngl.VertexArray]:
-        return {lit: self.drops.array_for(each, self._ids) for lit, each in programs.items()}
+        arrays = {}
+        for lit, each in programs.items():
+            (arrays[lit],) = self.drops.arrays_for(each, self._ids)
+        return arrays
 
     @property
-    def size(self) -> int:
-        """Bytes on the GPU."""
-        return int(self._ids.size + self._commands.size)
+    def bytes_per_drop(self) -> int:
+        return 4
 
-    def draw(self, cull: Any, count: int, order: ComputeOrder, lit: bool) -> None:
+    def draw(self, cull: Any, count: int, lit: bool) -> None:
         """List those of the first `count` drops that are in view, by the program CULL, and draw.
 
         lit: by the programs that know lamps.
@@ -57,7 +61,7 @@ class StreakList:
         self._ids.bind_to_storage_buffer(2)
         self._commands.bind_to_storage_buffer(3)
         cull.run(chunks)
-        order.after(moderngl.ELEMENT_ARRAY_BARRIER_BIT | moderngl.COMMAND_BARRIER_BIT)
+        self._order.after(moderngl.ELEMENT_ARRAY_BARRIER_BIT | moderngl.COMMAND_BARRIER_BIT)
         if self._far:
             far = self._far[lit]
             far.render_indirect(self._commands, moderngl.POINTS, count=chunks, first=chunks)
