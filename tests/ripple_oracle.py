@@ -113,14 +113,15 @@ class RippleOracle:
         if surface.ellipse:
             inside &= ((own / (0.5 * np.array(surface.size))) ** 2).sum(axis=1) < 1.0
         hits, own = hits[inside], own[inside]
-        deep = ripple.craters(hits[:, :3], hits[:, 4], hits[:, 5], hits[:, 6])
+        off, deep = ripple.craters(hits[:, :3], hits[:, 4], hits[:, 5], hits[:, 6])
         cells = np.array(place.cells)
-        spots = own / surface.cell + 0.5 * cells
+        spots = ((own[:, None] + off) / surface.cell + 0.5 * cells)[deep > 0.0]
+        deep = deep[deep > 0.0]
         if not all(place.held):
             spots %= cells
         assert self.now is not None
         ripple.add_sources(self.now, spots, deep, periodic=not all(place.held))
-        self.craters += int((deep > 0.0).sum())
+        self.craters += len(deep)
 
     def release(self) -> None:
         self._passes.update = self._update

@@ -110,12 +110,7 @@ def test_what_lies_below_the_pond_is_told_from_the_rest(place: Place) -> None:
     level = place.pond.level
     x, z = place.pond.center
     far = layout.CABIN
-    points = [
-        (x, level - 0.6, z),
-        (x, level + 0.2, z),
-        (x, level, z),
-        (far[0], level - 5.0, far[1]),
-    ]
+    points = [(x, level + up, z) for up in (-0.6, 0.2, 0.0)] + [(far[0], level - 5.0, far[1])]
     found = drowned(place.terrain, np.array(points))
     assert found[:3] == pytest.approx([0.6, -0.2, 0.0], abs=1e-9)
     assert found[3] == -np.inf  # low ground elsewhere is dry

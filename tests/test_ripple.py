@@ -233,14 +233,28 @@ def test_craters_keep_the_energy_of_the_drops() -> None:
     places = np.column_stack([rng.uniform(-20, 20, n), np.zeros(n), rng.uniform(-20, 20, n)])
     for diameter, weight in ((0.7, 20.0), (1.0, 300.0), (1.5, 100.0)):
         speed = 9.65 - 10.3 * math.exp(-0.6 * diameter)
-        deep = craters(places, np.full(n, diameter), np.full(n, speed), np.full(n, weight))
+        _, deep = craters(places, np.full(n, diameter), np.full(n, speed), np.full(n, weight))
         lone = ripple.DEPTH * diameter**1.5 * speed * math.sqrt(weight)
         shown = deep[deep > 0.0]
         assert shown.min() >= ripple.SHALLOWEST - 1e-6 and shown.max() <= ripple.DEEPEST
-        if lone < ripple.DEEPEST:
-            assert (deep**2).mean() == pytest.approx(lone**2, rel=0.05)
-    assert not craters(places, np.zeros(n), np.zeros(n), np.ones(n)).any()
-    assert craters(np.zeros((0, 3)), [], [], []).shape == (0,)
+        assert (deep**2).sum(1).mean() == pytest.approx(lone**2, rel=0.05)
+    assert not craters(places, np.zeros(n), np.zeros(n), np.ones(n))[1].any()
+    assert craters(np.zeros((0, 3)), [], [], [])[1].shape == (0, ripple.MOST_CRATERS)
+
+
+def test_a_drop_that_stands_for_many_makes_craters_around_it() -> None:
+    places = np.column_stack([np.arange(200.0), np.zeros(200), np.zeros(200)])
+    many = np.full(200, 50.0)
+    off, deep = craters(places, np.full(200, 2.0), np.full(200, 6.5), many)
+    count = (deep > 0.0).sum(axis=1)
+    assert (count == ripple.MOST_CRATERS).all() and (deep[deep > 0.0] < 1.5 * ripple.COMMON).all()
+    assert not off[:, 0].any()  # the first is where the splash is
+    away = np.hypot(*off[:, 1:].T)
+    assert away.max() <= ripple.SCATTER and away.mean() == pytest.approx(
+        ripple.SCATTER * 2.0 / 3.0, rel=0.05
+    )
+    _, few = craters(places, np.full(200, 2.0), np.full(200, 6.5), many / 8.0)
+    assert ((few > 0.0).sum(axis=1) == 1).all()
 
 
 def test_rain_roughens_water_the_more_the_heavier() -> None:

@@ -33,6 +33,9 @@ WIDTH = 1.25  # cells, of the crater: its radius over sqrt(2)
 SPREAD = 4.0 * WIDTH  # cells, beyond which a source is nothing
 DEPTH = 0.12  # mm of crater per unit of mm^1.5 m/s, for one real drop
 SHALLOWEST, DEEPEST = 5.0, 10.0  # mm
+COMMON = 6.0  # mm, of the craters that a drop makes which stands for many
+MOST_CRATERS = 5  # of one impact
+SCATTER = 0.5  # m, that all but the first lie off it at most
 ROUGHEST = 0.08  # at 25 mm/h
 ON_SURFACE = 0.05  # m, height within which an impact is one on the water
 
@@ -114,12 +117,16 @@ def roughness(rain_rate: Any) -> NDArray[np.float64]:
     return ROUGHEST * np.minimum(np.sqrt(rate / 25.0), 1.5)
 
 
-def craters(positions: Any, diameters: Any, speeds: Any, weights: Any) -> NDArray[np.float32]:
-    """Depth in mm of the crater of each impact, (n,); 0 where there is none.
+def craters(
+    positions: Any, diameters: Any, speeds: Any, weights: Any
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Craters of each impact: how far off it along the water's own axes, (n, MOST_CRATERS, 2) m,
+    and depths, (n, MOST_CRATERS) mm; 0 where there is none.
 
     Positions (n, 3) m, diameters mm, speeds m/s, weights in real drops. The waves' energy is that
-    of the falling drops, so a depth grows with the root of the weight. A crater that could not be
-    seen is left out by lot, or made as deep as can be seen, so often that the energy stays right.
+    of the falling drops, so the root of the sum of squared depths grows with that of the weight. A
+    crater that could not be seen is left out by lot, or made as deep as can be seen, so often that
+    the energy stays right; one that would be too deep is several.
     """
     p = np.ascontiguousarray(positions, np.float32).reshape(-1, 3)
     d, v, w = (np.asarray(a, np.float32) for a in (diameters, speeds, weights))
@@ -128,8 +135,14 @@ def craters(positions: Any, diameters: Any, speeds: Any, weights: Any) -> NDArra
     word = hash_word(spot[:, 0]) ^ spot[:, 1]
     share = deep / np.float32(SHALLOWEST)
     drawn = hash_unit(word) < share * share
-    kept = np.clip(deep, np.float32(SHALLOWEST), np.float32(DEEPEST))
-    return np.where(drawn, kept, np.float32(0.0))
+    number = np.clip(np.floor((deep / np.float32(COMMON)) ** 2), 1, MOST_CRATERS)
+    each = np.clip(deep / np.sqrt(number), np.float32(SHALLOWEST), np.float32(DEEPEST))
+    k = np.arange(MOST_CRATERS, dtype=np.uint32)
+    depths = np.where(drawn[:, None] & (k < number[:, None]), each[:, None], np.float32(0.0))
+    own = hash_word(word[:, None] + np.uint32(0x9E3779B9) * k)
+    turn = np.float32(2.0 * math.pi) * hash_unit(own ^ np.uint32(0x27D4EB2F))
+    off = np.float32(SCATTER) * np.sqrt(hash_unit(own ^ np.uint32(0x85EBCA6B))) * (k > 0)
+    return np.stack([off * np.cos(turn), off * np.sin(turn)], 2), depths.astype(np.float32)
 
 
 def add_sources(grid: NDArray, places: Any, deep: Any, *, periodic: bool = False) -> None:
