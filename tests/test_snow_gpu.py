@@ -251,7 +251,7 @@ def test_flakes_of_a_few_pixels_show_as_much_without_their_pictures(
                     assert first + n <= start and start + m <= drops.capacity
             esper.delete_entity(area, immediate=True)
             esper.delete_entity(look, immediate=True)
-    assert added["compute"] == pytest.approx(added["feedback"], rel=1e-3)
+    assert added["compute"] == pytest.approx(added["feedback"], rel=0.01)
     assert added["compute"] == pytest.approx(added["pictures"], rel=0.05)
     assert added["compute"] > 0.005
     for thing in (*target.color_attachments, target.depth_attachment, target):
