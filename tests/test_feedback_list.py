@@ -239,36 +239,47 @@ def test_a_larger_set_has_longer_lists(ctx: moderngl.Context, snows: bool) -> No
         assert np.concatenate(listed(drops)).max() > 500
 
 
-def test_the_hosts_restart_and_feedback_are_its_own(ctx: moderngl.Context, gl: GL) -> None:
-    """Lists do not depend on what the host has set, and leave it as it was."""
+def test_the_hosts_restart_index_skips_no_drop(ctx: moderngl.Context, gl: GL) -> None:
+    with falling(ctx, snows=False, drops=100) as made:
+        expected = look(made)
+        assert made.rain(expected).max() > 20
+        (seen,) = listed(drops_of(made))
+        gl.glEnable(e.PRIMITIVE_RESTART)
+        try:
+            for index in (0, *seen.tolist()):
+                gl.glPrimitiveRestartIndex(index)
+                assert np.array_equal(made.draw(AT, HEADING, PITCH), expected)
+                assert gl.get_int(e.PRIMITIVE_RESTART_INDEX) == index
+                assert gl.glIsEnabled(e.PRIMITIVE_RESTART)
+        finally:
+            gl.glPrimitiveRestartIndex(NONE)
+            gl.glDisable(e.PRIMITIVE_RESTART)
+
+
+def test_the_hosts_transform_feedback_is_its_own(ctx: moderngl.Context, gl: GL) -> None:
+    if gl.glBindTransformFeedback is None:
+        pytest.skip("no such objects here")
     with falling(ctx, snows=True) as made:
         expected = look(made)
         lists = listed(drops_of(made))
-        name, own = ctypes.c_uint(), ctx.buffer(reserve=64)
+        name, own = ctypes.c_uint(), ctx.buffer(b"\x11" * 64)
         make, give = (
             FUNCTION(None, ctypes.c_int, ctypes.c_void_p)(gl._lookup(function))
             for function in (b"glGenTransformFeedbacks", b"glDeleteTransformFeedbacks")
         )
-        assert gl.glBindTransformFeedback is not None
         make(1, ctypes.addressof(name))
         gl.glBindTransformFeedback(e.TRANSFORM_FEEDBACK, name.value)
         gl.glBindBufferBase(e.TRANSFORM_FEEDBACK_BUFFER, 0, own.glo)
-        own.write(b"\x11" * 64)
-        gl.glPrimitiveRestartIndex(7)
-        gl.glEnable(e.PRIMITIVE_RESTART)
         try:
             assert np.array_equal(made.draw(AT, HEADING, PITCH), expected)
             for before, now in zip(lists, listed(drops_of(made)), strict=True):
                 assert np.array_equal(before, now)
             assert gl.get_int(e.TRANSFORM_FEEDBACK_BINDING) == name.value
-            assert gl.get_int(e.PRIMITIVE_RESTART_INDEX) == 7
-            assert gl.glIsEnabled(e.PRIMITIVE_RESTART)
-            assert own.read() == b"\x11" * 64
             bound = ctypes.c_int()
             gl.glGetIntegeri_v(e.TRANSFORM_FEEDBACK_BUFFER_BINDING, 0, ctypes.addressof(bound))
             assert bound.value == own.glo
+            assert own.read() == b"\x11" * 64
         finally:
-            gl.glPrimitiveRestartIndex(NONE)
             gl.glBindTransformFeedback(e.TRANSFORM_FEEDBACK, 0)
             give(1, ctypes.addressof(name))
             own.release()
