@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from demo_game.place import Place, paint
 
 from . import geometry, sunlight
-from .environment import Air, Environment, Ripples
+from .drips import Drips
+from .environment import Air, Environment
 from .flag import Flag
 from .frame_block import FrameBlock, as_matrix, unit
 from .ground import Ground
@@ -47,6 +48,7 @@ class SceneRenderer:
         self._meadow = Meadow(ctx, self._block, place)
         self._flag = Flag(ctx, self._block, place)
         self._water = Water(ctx, self._block, place)
+        self._drips = Drips(ctx, self._block, place)
         self._pools = LampPools(ctx, self._block, place)
         self._halos = Halos(ctx, self._block, place)
         self._openings = Openings(place)
@@ -55,7 +57,7 @@ class SceneRenderer:
         self._detail.build_mipmaps()
         self._detail.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         solid = (self._actors, self._trees, self._meadow, self._flag, self._ground)
-        self._looks = [look for part in (*solid, self._water) for look in part.looks]
+        self._looks = [look for part in (*solid, self._water, self._drips) for look in part.looks]
         self._prepared: set[moderngl.Program] = set()
         self._defines: tuple[str, ...] | None = None
         self._casting: list[tuple[NDArray, float]] = []  # what moves and throws its shadow
@@ -136,7 +138,7 @@ class SceneRenderer:
             if environment.draws_sky:
                 self._sky.draw(v, p, sun, float(camera[1]))
             scissor(target, None)
-        self._draw_blended(target, v, planes, camera, environment.ripples)
+        self._draw_blended(target, v, p, planes, camera, environment)
 
     def _choose(self, defines: tuple[str, ...]) -> list[moderngl.Program]:
         """The programs of what is lit, as the weather is now."""
@@ -193,15 +195,17 @@ class SceneRenderer:
         ctx.disable(moderngl.CULL_FACE)
 
     def _draw_blended(
-        self, target: moderngl.Framebuffer, view: NDArray, planes: NDArray, camera: NDArray,
-        ripples: Ripples | None,
+        self, target: moderngl.Framebuffer, view: NDArray, projection: NDArray, planes: NDArray,
+        camera: NDArray, environment: Environment,
     ) -> None:  # fmt: skip
         target.depth_mask = False
         self.ctx.blend_equation = moderngl.FUNC_ADD, moderngl.FUNC_ADD
         self._bind_maps()
         if self._water.seen(planes, camera) < np.inf:
-            self._water.draw(ripples)
+            self._water.draw(environment.ripples)
         self._pools.draw(planes, camera)
+        size = target.viewport[2], target.viewport[3]
+        self._drips.draw(planes, camera, environment, projection, size)
         self._halos.draw(view)
         target.depth_mask = True
         self.ctx.enable_only(moderngl.NOTHING)
@@ -229,7 +233,7 @@ class SceneRenderer:
         if self._released:
             return
         self._released = True
-        release_all((self._halos, self._pools, self._water, self._flag, self._meadow))
+        release_all((self._halos, self._drips, self._pools, self._water, self._flag, self._meadow))
         release_all((self._trees, self._actors, self._statics))
         release_all((self._ground_shadow, self._ground))
         release_all((self._shadows, self._sky, self._detail, self._block))
