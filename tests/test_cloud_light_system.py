@@ -14,7 +14,7 @@ from weather_ecs.components import Atmosphere, Climate, Cloud, CloudRoot, CloudS
 from weather_ecs.frame import SkyLight
 from weather_ecs.physics.absorption import absorbed, path_lengths
 from weather_ecs.systems import cloud_shapes
-from weather_ecs.systems.cloud_light import light_one, sun_direction
+from weather_ecs.systems.cloud_light import light_one, moved, sun_direction
 from weather_ecs.systems.cloud_shapes import TURNS, ShapeLibrary, local, turn_of
 
 pytestmark = pytest.mark.usefixtures("world")
@@ -74,6 +74,23 @@ def test_as_long_as_the_light_stands_nothing_is_computed():
     for _ in range(5):
         esper.process(0.05)
         assert weather.stats.cfa_computed == 0
+    assert drawn(weather).cloud_shapes is before
+
+
+def test_directions_of_any_length_are_compared_by_their_angle():
+    light, limit = (0.35, 0.8, 0.48), math.cos(math.radians(2.0))
+    twice = tuple([2.0 * part for part in light])
+    assert not moved(light, light, limit) and not moved(light, twice, limit)
+    assert moved((0.0, 0.99, 0.0), at_angle(2.1), limit)
+    assert not moved((0.0, 0.99, 0.0), at_angle(1.9), limit)
+
+
+def test_without_a_sun_nothing_is_computed_either():
+    esper.create_entity(layer((sky(0.0, 10),), velocity=(0.0, 0.0)))
+    weather = Weather()
+    before = drawn(weather).cloud_shapes
+    for _ in range(5):
+        esper.process(0.05)
     assert drawn(weather).cloud_shapes is before
 
 

@@ -72,5 +72,11 @@ def _next_stale(library: ShapeLibrary, light: Vector) -> Shape | None:
 
 
 def moved(before: Vector, now: Vector, limit: float) -> bool:
-    """Whether the cosine between two unit vectors is below a limit."""
-    return before[0] * now[0] + before[1] * now[1] + before[2] * now[2] < limit
+    """Whether the cosine between two vectors is below a limit, which is more than 0."""
+    across, one, other = (
+        p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+        for p, q in ((before, now), (before, before), (now, now))
+    )
+    # A direction that someone has written down is rarely quite of the length 1; (0, 0, 0), for no
+    # direction in particular, has moved in any case.
+    return across <= 0.0 or across < limit * math.sqrt(one * other)
