@@ -64,9 +64,9 @@ def test_an_area_that_passes_leaves_a_track_and_less_of_it_behind() -> None:
     behind, here, ahead = (level.at(x, 0.0, 0.0, 60) for x in (60.0, 130.0, 175.0))
     assert ahead == 0.0
     assert behind > 2.0 * here > 0.0
-    # As much as lies under an area that stood there for as long as the other was over it.
+    # Less than under an area that stood for as long as it takes to pass: an edge is soft.
     stood = WATER.settle_one(0.0, 10.0 * MM_PER_S, 2.0 * RADIUS / 2.0)
-    assert behind == pytest.approx(stood, rel=0.2)
+    assert 0.7 * stood < behind < stood
 
 
 def test_few_stretches_are_kept_however_it_changes() -> None:
