@@ -74,7 +74,7 @@ def test_the_plain_light_is_the_dissertation_s(
 
 def test_the_full_light_is_the_oracle_s(ctx: moderngl.Context, scene: dict[str, Any]) -> None:
     data = shape(centers=CENTERS, billboards=8, absorbed=(0.1, 0.45, 0.9))
-    row = {**scene, "growth": 1.0}
+    row = {**scene, "growth": 1.0, "shaded": (0.4, 0.55)}
     look = CloudLook(silver=0.7, base=0.9, ambient=1.1)
     # Of a low sun, whose light grows with the height.
     high = tuple((0.1 * k, 0.08 * k, 0.01 * k * k) for k in range(LEVELS))
@@ -111,7 +111,8 @@ def test_the_full_light_is_the_oracle_s(ctx: moderngl.Context, scene: dict[str, 
     lean = np.hypot(*row["shear"])
     half = np.array([half[0] + lean * half[1], half[1], half[2] + lean * half[1]])
     half[[0, 2]] = max(half[0], half[2])
-    body = Body(half, stored.base * row["scale"], 0.4, 0.3, 1.0 / (400.0 * row["scale"]), 300.0)
+    thick = 1.0 / (400.0 * row["scale"])
+    body = Body(half, stored.base * row["scale"], 0.4, 0.3, thick, 300.0, row["shaded"])
     lit = cloud_light.full_light(v, s, w, a, body, surround_of(view_of(frame)), (0.7, 0.9, 1.1))
     np.testing.assert_allclose(found["vs_lit"], encode(lit.lit), atol=2e-3)
     np.testing.assert_allclose(found["vs_shade"], encode(lit.shade), atol=2e-3)

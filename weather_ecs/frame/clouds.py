@@ -22,6 +22,7 @@ CLOUD_DTYPE = np.dtype(
         ("opacity", "f4"),  # 0 to 1
         ("darkness", "f4"),  # 0 fair to 1: of the base, by how deep the cloud is and its rain
         ("flash", "f4"),  # light from inside, 0 but while lightning is in it
+        ("shaded", "f4", 2),  # 0 to 1: what other clouds take of the sun's light, and of the sky's
     ]
 )
 

@@ -28,7 +28,7 @@ LARGE = 1.6  # pixels for each texel of the largest picture, above which billboa
 UNIT = 96  # texels, height of a picture as the budget counts them
 WAITING = 4  # times as many are taken of clouds that have none yet
 PIXELS_OFF = 1.3  # parallax that is let be
-_STATE = np.array([0.04, 0.05, 0.06, 0.04, 0.04])  # changes that are let be
+_STATE = np.array([0.04, 0.05, 0.06, 0.04, 0.04, 0.06, 0.06])  # changes that are let be
 
 
 @dataclass(slots=True)

@@ -20,7 +20,7 @@ KEPT_DTYPE = np.dtype(
         ("pixels", "f4"),  # of the scene, when it was taken, and what its tile should have been
         ("need", "f4"),
         ("stamp", "i8"),  # of sky and look
-        ("state", "f4", 5),  # growth, mode, darkness, shear
+        ("state", "f4", 7),  # growth, mode, darkness, shear, shaded
         ("seen", "i8"),  # draw at which it was last in the picture
         ("real", "?"),  # drawn with billboards at the last draw
         ("large", "?"),  # and too large for a picture, not only waiting for one
@@ -29,7 +29,6 @@ KEPT_DTYPE = np.dtype(
 
 
 def state_of(clouds: NDArray) -> NDArray[np.float64]:
-    """(n, 5) the column `state` of clouds as they are now."""
-    lean = clouds["shear"]
-    columns = (clouds["growth"], clouds["mode"], clouds["darkness"], lean[:, 0], lean[:, 1])
-    return np.stack(columns, axis=1)
+    """(n, 7) the column `state` of clouds as they are now."""
+    columns = (clouds["growth"], clouds["mode"], clouds["darkness"])
+    return np.column_stack([*columns, clouds["shear"], clouds["shaded"]])

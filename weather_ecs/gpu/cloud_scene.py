@@ -12,6 +12,7 @@ from weather_ecs.gpu.cloud_store import CloudStore
 from weather_ecs.gpu.view_block import encode
 from weather_ecs.physics import cloud_light, cloud_view
 from weather_ecs.physics.cloud_light import Surround
+from weather_ecs.physics.cloud_shade import packed
 
 REACH = 200_000.0  # m, beyond which no cloud is drawn
 LOST = 0.90, 0.99  # share of haze from which a cloud fades, and at which it is gone
@@ -119,7 +120,7 @@ def rows_of(
     rows = np.zeros((len(which), 6, 4), np.float32)
     rows[:, 0, :3], rows[:, 0, 3] = scene.center[which], clouds["opacity"]
     rows[:, 1, 0], rows[:, 1, 1] = np.cos(clouds["heading"]), np.sin(clouds["heading"])
-    rows[:, 1, 2], rows[:, 1, 3] = clouds["scale"], clouds["mirror"]
+    rows[:, 1, 2], rows[:, 1, 3] = clouds["scale"] * clouds["mirror"], packed(clouds["shaded"])
     rows[:, 2, :2] = clouds["shear"]
     rows[:, 2, 2], rows[:, 2, 3] = clouds["growth"], clouds["mode"]
     rows[:, 3, 0], rows[:, 3, 1], rows[:, 3, 2] = clouds["darkness"], clouds["flash"], fresh

@@ -88,6 +88,7 @@ class Body:
     flash: float = 0.0
     thick: float = 0.0  # 1/m, what a way through it adds to what is absorbed
     height: float = 0.0  # m, of its centre over the ground
+    shaded: tuple[float, float] = (0.0, 0.0)  # what others take of the sun's light, and the sky's
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,10 +138,11 @@ def full_light(
     gloom = 1.0 - 0.38 * body.darkness * bases * (1.0 - 0.9 * smoothstep(0.4, 1.0, rise))
     dim = (under * gloom)[..., None]
 
-    here = sun_at(light.suns, body.height + v[..., 1])
+    here = sun_at(light.suns, body.height + v[..., 1]) * (1.0 - body.shaded[0])
     sun = here * through[..., None]
     ahead = w @ light.direction
     forward = 0.16 * (0.5 + 0.5 * ahead) ** 6 + 0.7 * np.maximum(ahead, 0.0) ** 24
+    ambient = ambient * (1.0 - body.shaded[1])
     # A low sun shines under the base.
     sunny = dim + (1.0 - dim) * (1.0 - float(smoothstep(0.02, 0.30, light.direction[1])))
     lit = sun * (0.92 + 0.08 * towards)[..., None] * sunny + ambient * dim

@@ -66,7 +66,7 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     // Its top has the sun that never comes to the base.
     float gloom = 1.0 - 0.38 * cloud.darkness * cloud_look.y * (1.0 - 0.9 * smoothstep(0.4, 1.0, rise));
 
-    vec3 here = sun_at(cloud_sun.w + cloud.center.y + v.y);
+    vec3 here = sun_at(cloud_sun.w + cloud.center.y + v.y) * (1.0 - cloud.shaded.x);
     vec3 sun = here * through;
     float ahead = dot(way, cloud_sun.xyz);
     // Forward scattering of droplets, broad and narrow (two lobes of Henyey and Greenstein's kind).
@@ -76,7 +76,7 @@ Light full_light(Cloud cloud, vec3 v, vec3 s, vec3 way, float a)
     float dim = under * gloom;
     // A low sun shines under the base.
     sun *= mix(1.0, dim, smoothstep(0.02, 0.30, cloud_sun.y));
-    ambient *= dim;
+    ambient *= dim * (1.0 - cloud.shaded.y);
     light.lit = sun * (0.92 + 0.08 * towards) + ambient;
     light.shade = sun * (0.22 + 0.06 * towards) + ambient * 0.95;
     light.facing = clamp(0.60 + 0.58 * towards - 0.28 * a, 0.0, 1.0);

@@ -17,6 +17,7 @@ struct Cloud {
     float darkness;
     float flash;
     float fresh;  // share of the newer of the absorptions
+    vec2 shaded;  // what other clouds take of the sun's light and of the sky's
     float thick;  // 1/m, what a way through it adds to what is absorbed
     vec3 half_size;  // m, of the box that holds the billboards, scaled
     float base;  // m, of the cloud's underside, from its centre
@@ -42,7 +43,9 @@ Cloud fetch_cloud(int row)
     vec4 d = texelFetch(cloud_rows, ivec2(3, row), 0);
     vec4 e = texelFetch(cloud_rows, ivec2(4, row), 0);
     vec4 f = texelFetch(cloud_rows, ivec2(5, row), 0);
-    return Cloud(a.xyz, a.w, b.xy, b.z, b.w, c.xy, c.z, c.w, d.x, d.y, d.z, d.w, e.xyz, e.w, f.xyz, f.w);
+    vec2 shaded = vec2(floor(b.w) / 255.0, fract(b.w));
+    return Cloud(a.xyz, a.w, b.xy, abs(b.z), sign(b.z), c.xy, c.z, c.w, d.x, d.y, d.z, shaded, d.w, e.xyz,
+                 e.w, f.xyz, f.w);
 }
 
 Billboard fetch_billboard(int index)

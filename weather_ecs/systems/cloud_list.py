@@ -15,6 +15,7 @@ from weather_ecs.systems.cloud_field import CloudField
 from weather_ecs.systems.cloud_ghosts import LASTING, CloudGhosts
 from weather_ecs.systems.cloud_layer import TICK, LayerClouds
 from weather_ecs.systems.cloud_made import MadeClouds, Wind
+from weather_ecs.systems.cloud_shades import CloudShades
 from weather_ecs.systems.cloud_shapes import Shape
 from weather_ecs.systems.cloud_view import LayerView, ease
 from weather_ecs.systems.clouds import STEPS, start_layer
@@ -53,6 +54,7 @@ class CloudList:
         self._previews: dict[int, tuple[tuple[int, ...], LayerClouds]] = {}
         self._made = MadeClouds()
         self._ghosts = CloudGhosts()
+        self._shades = CloudShades()
         self._shapes: tuple[CloudShapeData, ...] = ()
         self._changed = False  # shapes may have come out of use
         self._rows = NO_CLOUDS
@@ -121,7 +123,7 @@ class CloudList:
         if clock.paused:
             self._ghosts.clear()
         found.append((self._ghosts.at(clock.time), self._ghosts.shapes))
-        return self._join(state, found)
+        return self._join(state, found, sky)
 
     def _build(
         self,
@@ -178,16 +180,18 @@ class CloudList:
         return known[1]
 
     def _join(
-        self, state: WeatherState, found: list[tuple[NDArray, list[Shape]]]
+        self, state: WeatherState, found: list[tuple[NDArray, list[Shape]]], sky: SkyLight
     ) -> tuple[NDArray, tuple[CloudShapeData, ...]]:
         places: dict[int, int] = {}
         shapes: list[Any] = []
+        stand: list[Shape] = []
         for rows, own in found:
             index = []
             for shape in own:
                 place = places.setdefault(shape.key, len(places))
                 if place == len(shapes):
                     shapes.append(shape.data)
+                    stand.append(shape)
                 index.append(place)
             if len(rows):
                 rows["shape"] = np.array(index)[rows["shape"]]
@@ -200,5 +204,7 @@ class CloudList:
         if not any(len(rows) for rows, _ in found):
             return NO_CLOUDS, self._shapes
         rows = np.concatenate([rows for rows, _ in found])
+        if state.drawn:
+            self._shades.put(rows, stand, sky.cloud_direction, state.clock.time)
         rows.setflags(write=False)
         return rows, self._shapes

@@ -100,4 +100,5 @@ def _row(uid: int, cloud: Cloud, shape: Shape, index: int) -> tuple[Any, ...]:
         cloud.opacity,
         shape.model.darkness,
         0.0,
+        (0.0, 0.0),
     )

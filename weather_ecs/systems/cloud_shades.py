@@ -1,0 +1,89 @@
+"""`CloudShades`: what clouds take of each other's light, a few clouds in a frame."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weather_ecs.physics.cloud_shade import Bodies, taken
+from weather_ecs.systems.cloud_shapes import Shape, Vector
+
+IN_TURN, PAIRS = 2, 300  # clouds that a frame looks at again, and beside how many others in all
+AT_ONCE = 64  # new ones that one step does
+SETTLING = 1.5  # s, in which a cloud comes to show what was found
+MOST_FILLED = 1.5  # seeds' boxes are rounder than their ellipsoid: as much more of it they fill
+
+
+class CloudShades:
+    """Follows the clouds by their keys; those that are new are looked at at once."""
+
+    def __init__(self) -> None:
+        self._keys = np.zeros(0, np.int64)
+        self._found = np.zeros((0, 2))  # of sun and sky
+        self._shown = np.zeros((0, 2))
+        self._next = 0
+        self._time = 0.0  # s, the weather's clock
+        self._known: dict[int, tuple[float, ...]] = {}  # half sizes and density by a shape's key
+        self._sizes = np.zeros((0, 4))
+        self._shapes: list[Shape] = []
+
+    def put(self, rows: NDArray, shapes: list[Shape], light: Vector, time: float) -> None:
+        """Write what is shown now into the column `shaded` of all clouds."""
+        self._measure(shapes)
+        bodies = self._bodies(rows)
+        towards = np.array(light)
+        if not np.array_equal(rows["key"], self._keys):
+            fresh = self._remap(rows["key"])
+            for start in range(0, len(fresh), AT_ONCE):
+                part = fresh[start : start + AT_ONCE]
+                self._found[part] = self._shown[part] = _of(bodies, part, towards)
+        if len(rows):
+            count = min(IN_TURN, max(PAIRS // len(rows), 1), len(rows))
+            turn = (self._next + np.arange(count)) % len(rows)
+            self._found[turn] = _of(bodies, turn, towards)
+            self._next = int(turn[-1]) + 1
+        passed = min(max(time - self._time, 0.0), 10.0)
+        self._time = time
+        self._shown += (self._found - self._shown) * -np.expm1(-passed / SETTLING)
+        rows["shaded"] = self._shown
+
+    def _measure(self, shapes: list[Shape]) -> None:
+        if len(shapes) == len(self._shapes) and all(
+            a is b for a, b in zip(shapes, self._shapes, strict=True)
+        ):
+            return
+        self._known = {each.key: self._known.get(each.key) or _size(each) for each in shapes}
+        self._sizes = np.array([self._known[each.key] for each in shapes]).reshape(-1, 4)
+        self._shapes = list(shapes)
+
+    def _bodies(self, rows: NDArray) -> Bodies:
+        sizes = self._sizes[rows["shape"]]
+        scale = np.maximum(rows["scale"].astype(np.float64), 1e-6)
+        half = sizes[:, :3] * scale[:, None]
+        there = rows["opacity"] * rows["growth"]
+        return Bodies(rows["position"], half, sizes[:, 3] * there / scale)
+
+    def _remap(self, keys: NDArray) -> NDArray[np.intp]:
+        """The clouds are other ones: keep what is known; returns the rows of the new ones."""
+        order = np.argsort(self._keys, kind="stable")
+        place = np.searchsorted(self._keys, keys, sorter=order)
+        place = order[np.minimum(place, max(len(order) - 1, 0))] if len(order) else place
+        known = self._keys[place] == keys if len(order) else np.zeros(len(keys), bool)
+        found, shown = np.zeros((len(keys), 2)), np.zeros((len(keys), 2))
+        if len(order):
+            found[known], shown[known] = self._found[place[known]], self._shown[place[known]]
+        self._keys, self._found, self._shown = keys.copy(), found, shown
+        return np.flatnonzero(~known)
+
+
+def _of(bodies: Bodies, which: NDArray[np.intp], light: NDArray) -> NDArray[np.float64]:
+    own = Bodies(*(column[which] for column in bodies))
+    return taken(own, bodies, light)
+
+
+def _size(shape: Shape) -> tuple[float, ...]:
+    """Half sizes, m, and how dense the ellipsoid is, 1/m at its full size."""
+    half = np.maximum(np.array(shape.half), 1e-3)
+    filled = float(np.prod(shape.made.sizes, axis=1).sum() / np.prod(2.0 * half))
+    share = min(MOST_FILLED * filled, 1.0) * shape.model.opacity
+    return (*half.tolist(), share / max(shape.model.light_penetration, 1e-3))
