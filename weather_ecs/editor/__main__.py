@@ -26,10 +26,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
             raise ValueError
     except ValueError:
         parser.error(f"--size: {given.size!r}: allowed: WxH, each 1 to 16384, as 1280x720")
-    try:
-        import pyglet
+    import pyglet
 
-        pyglet.options.debug_gl = False  # an error of OpenGL shows in a picture, and ends nothing
+    pyglet.options.debug_gl = False  # an error of OpenGL shows in a picture, and ends nothing
+    try:
+        import pyglet.window
+    except Exception as error:  # it opens the display; what fails differs by system
+        print(f"error: no window: {error}", file=sys.stderr)  # noqa: T201
+        return 1
+    try:
         from weather_ecs.editor.app import run
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] not in (
