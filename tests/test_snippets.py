@@ -1,6 +1,7 @@
 """The examples of README and docs: each runs as it stands, given what its reader brings.
 
-The README's first one needs a window: `window_readme.py`.
+The README's first one and the game of shaders.md need a window: `window_readme.py`,
+`window_shaders.py`.
 """
 
 from __future__ import annotations
@@ -18,17 +19,29 @@ import pytest
 from tests.boxes import CORNERS, TRIANGLES
 from tests.targets import bound_target
 from tests.views import look_from, perspective
-from weather_ecs import CloudFile, Weather, components, glsl, presets, save_clouds
+from weather_ecs import (
+    CloudFile,
+    Weather,
+    components,
+    glsl,
+    load_clouds,
+    presets,
+    save_clouds,
+)
 from weather_ecs.components import CloudModel, CloudSeed, Occluder, Sky, SkyLayer
 from weather_ecs.stats import Stats
 
 pytestmark = pytest.mark.usefixtures("world")
 
 ROOT = Path(__file__).parent.parent
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCS = [page for page in sorted((ROOT / "docs").glob("*.md")) if page.name != "shaders.md"]
+PAGES = [ROOT / "README.md", *DOCS]
 VERTEX = "#version 330\nvoid main() { gl_Position = vec4(0.0); }\n"
 # What the shaders of a game do with each include, in the words of its page.
 FRAGMENT = {
+    "cloud-drawing.md": (
+        "out vec4 color;\nvoid main() { color = vec4(weather_sunlight(vec3(1.0))); }\n"
+    ),
     "collisions.md": (
         "out vec4 color;\nvoid main() { color = vec4(weather_rained_on(vec3(1.0))); }\n"
     ),
@@ -133,3 +146,22 @@ def test_its_functions_are_there(page: Path, line: int, code: str, ctx: moderngl
     source = f"#version 330\n{glsl(include)}{given}out vec4 color;\nvoid main()\n{{\n{code}"
     source += f"    color = vec4({last}, 1.0);\n}}\n"
     ctx.program(vertex_shader=VERTEX, fragment_shader=source).release()
+
+
+@pytest.mark.parametrize(("page", "line", "text"), snippets("toml"))
+def test_its_file_loads(page: Path, line: int, text: str, tmp_path: Path) -> None:
+    path = tmp_path / "example.toml"
+    path.write_text(text, encoding="utf-8")
+    content = load_clouds(path)
+    assert content.models and content.layers and content.climate is not None
+    again, third = tmp_path / "again.toml", tmp_path / "third.toml"
+    save_clouds(again, content)
+    save_clouds(third, load_clouds(again))
+    assert again.read_bytes() == third.read_bytes()
+
+
+def test_no_kind_of_block_is_left_out() -> None:
+    known = ("python", "glsl", "toml", "")  # without a language: what a program prints
+    for page in [*PAGES, ROOT / "docs" / "shaders.md"]:
+        fences = re.findall(r"^```(.*)$", page.read_text(encoding="utf-8"), re.M)
+        assert len(fences) % 2 == 0 and set(fences) <= set(known), page.name

@@ -92,3 +92,20 @@ def test_example_of_the_readme_rains(screen: Display, tmp_path: Path) -> None:
         before, after = data["before"], data["after"]
     assert before.shape == (720, 1280, 4)
     assert (before != after).any(axis=2).mean() > 0.02
+
+
+def test_the_game_of_the_shaders_page_gets_white(screen: Display, tmp_path: Path) -> None:
+    out = tmp_path / "shaders.npz"
+    assert screen.python(TESTS / "window_shaders.py", out) == ""
+
+    def light(picture: np.ndarray, x: float, y: float) -> float:
+        """Median of a patch, in shares of the picture from its lower left corner."""
+        row, column = int(y * picture.shape[0]), int(x * picture.shape[1])
+        return float(np.median(picture[row - 4 : row + 5, column - 4 : column + 5, :3]))
+
+    with np.load(out) as data:
+        rain, snow = data["rain"], data["snow"]
+    assert rain.shape == (540, 960, 4)
+    under_roof, in_the_open = (0.39, 0.4), (0.5, 0.15)
+    assert light(snow, *in_the_open) > light(rain, *in_the_open) + 30.0
+    assert light(snow, *in_the_open) > light(snow, *under_roof) + 30.0
