@@ -113,7 +113,11 @@ class WeatherAir:
         self._block.upload()
 
     def use(self, program: Any) -> None:
-        """Bind the block to the binding it has, and point the program's at it, if it has one."""
+        """Bind the block to the binding it has, and point the program's at it, if it has one.
+
+        The program is moderngl's, pyglet's, or the OpenGL name of one; InvalidValueError for
+        anything else.
+        """
         use_block(program, self._block)
 
     def release(self) -> None:

@@ -53,6 +53,9 @@ class WeatherHeightmap:
     def use(self, program: Any, unit: int = FIRST_UNIT) -> None:
         """Bind the texture to a unit, the block to the binding it has, and point the program's
         uniforms at them. What the shader does not use is left out.
+
+        The program is moderngl's, pyglet's, or the OpenGL name of one; InvalidValueError for
+        anything else. The texture stays bound.
         """
         found = self._current()
         if found is None or found.footprint is None:

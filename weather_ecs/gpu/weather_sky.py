@@ -103,6 +103,9 @@ class WeatherSky:
     def use(self, program: Any, unit: int = UNIT) -> None:
         """Bind the map to a texture unit, the block to the binding it has, and point the program's
         uniforms at them. What the shader does not use is left out.
+
+        The program is moderngl's, pyglet's, or the OpenGL name of one; InvalidValueError for
+        anything else. The texture stays bound.
         """
         use_maps(program, unit, weather_sky_map=self.texture)
         use_block(program, self._block)

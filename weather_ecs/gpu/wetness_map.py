@@ -50,6 +50,9 @@ class WetnessMap:
     def use(self, program: Any, unit: int = FIRST_UNIT) -> None:
         """Bind the textures to two units from `unit` on, the block to the binding it has, and
         point the program's uniforms at them. What the shader does not use is left out.
+
+        The program is moderngl's, pyglet's, or the OpenGL name of one; InvalidValueError for
+        anything else. The textures stay bound.
         """
         use_maps(program, unit, weather_wet_map=self.texture, weather_wet_far=self.far)
         use_block(program, self._block)
