@@ -18,9 +18,9 @@ def glsl(name: str) -> str:
     """Text of one of the package's public includes, without `#version`, to be pasted in.
 
     `cloud_shadow.glsl`: see `Weather.cloud_shadow`; `heightmap.glsl`: see `Weather.heightmap`;
-    `ripple_sample.glsl`: see `Weather.ripples`;
-    `sky.glsl`: see `Weather.sky`;
-    `weather.glsl`: see `Weather.air`; `wetness.glsl`: see `Weather.wetness`.
+    `ripple_sample.glsl`: see `Weather.ripples`; `sky.glsl`: see `Weather.sky`; `weather.glsl`: see
+    `Weather.air`; `wetness.glsl`: see `Weather.wetness`. One shader may have several; their
+    functions are in docs/shaders.md and the pages that it names.
 
     Raises InvalidValueError for another name.
     """

@@ -33,8 +33,10 @@ class Weather(Contents):
     """The weather of esper's current world.
 
     With a pyglet window, or with a moderngl context that the game has made, it draws; with
-    neither it only simulates, as a game server does. It lives in the world that was current when
-    it was made, whichever is current later; a world has one weather at most.
+    neither it only simulates, as a game server does. `seed`, 0 to 2^63 - 1, decides all chance,
+    `quality` (see there) what drawing may cost, `backend` (auto, compute, feedback) how drops are
+    moved. `esper.process(dt)`, dt in seconds, carries it on. It lives in the world that was current
+    when it was made, whichever is current later; a world has one weather at most.
 
     Raises InvalidValueError for a bad seed, quality or backend, ContextError where OpenGL is
     missing or too old, WeatherError where the world has a weather already.
@@ -104,7 +106,8 @@ class Weather(Contents):
         for column vectors; without them those of the window count. `observer` says whose rain it
         is where there are several. A window that is closed or has no size is left alone.
 
-        Raises InvalidValueError for a matrix that is none, ContextError without OpenGL.
+        Raises InvalidValueError for matrices that no camera has (a view that is transposed or the
+        projection among them), ContextError without OpenGL, ClosedError after `close`.
         """
         camera = self._camera(view, projection, observer)
         if camera is not None:
@@ -154,8 +157,7 @@ class Weather(Contents):
     def wetness(self, *, observer: Observer | None = None) -> WetnessMap:
         """The water on the ground, for a game's own shaders: see `wetness.glsl`.
 
-        The same object for good; what it binds is what the last draw left. Raises ContextError
-        without OpenGL.
+        The same object for good, as the last draw left it. Raises ContextError without OpenGL.
         """
         self._check_drawing(observer)
         with current(self._window):
@@ -164,8 +166,7 @@ class Weather(Contents):
     def heightmap(self, *, observer: Observer | None = None) -> WeatherHeightmap:
         """What rain meets first, for a game's own shaders: see `heightmap.glsl`.
 
-        The same object for good; what it binds is what the last draw left. Raises ContextError
-        without OpenGL.
+        The same object for good, as the last draw left it. Raises ContextError without OpenGL.
         """
         self._check_drawing(observer)
         with current(self._window):
@@ -174,8 +175,7 @@ class Weather(Contents):
     def cloud_shadow(self, *, observer: Observer | None = None) -> CloudShadow:
         """The clouds' shadows on the ground, for a game's own shaders: see `cloud_shadow.glsl`.
 
-        The same object for good; what it binds is what the last draw left. Raises ContextError
-        without OpenGL.
+        The same object for good, as the last draw left it. Raises ContextError without OpenGL.
         """
         self._check_drawing(observer)
         with current(self._window):
