@@ -16,8 +16,8 @@ from tests.weather_pictures import SIZE, Stage, stage
 from weather_ecs import QualitySettings
 from weather_ecs.components import Air, Observer, PointLight, RainArea
 from weather_ecs.frame import DropLook
+from weather_ecs.gpu import feedback_list, kind_programs
 from weather_ecs.gpu import gl_enums as e
-from weather_ecs.gpu import kind_programs
 from weather_ecs.gpu.context import probe
 from weather_ecs.gpu.drop_set import DropSet
 from weather_ecs.gpu.feedback_list import FeedbackList, has_streams
@@ -63,9 +63,9 @@ def drops_of(made: Stage, observer: int = 0) -> DropSet:
 def listed(drops: DropSet) -> list[np.ndarray]:
     """Numbers in each list; what stands behind them starts primitives anew."""
     assert isinstance(drops.streaks, FeedbackList)
-    found = []
-    for buffer in drops.streaks.ids:
-        ids = np.frombuffer(buffer.read(), np.uint32)[: drops.alive]
+    found, whole = [], np.frombuffer(drops.streaks.ids.read(), np.uint32)
+    for first in drops.streaks.firsts:
+        ids = whole[first : first + drops.alive]
         some = ids[ids != NONE]
         assert (ids[len(some) :] == NONE).all()
         assert (np.diff(some.astype(np.int64)) > 0).all()  # in their own order
@@ -159,6 +159,20 @@ def test_lists_are_the_oracles(ctx: moderngl.Context, snows: bool) -> None:
 
 
 @KINDS
+def test_long_lists_are_emptied_piece_by_piece(
+    ctx: moderngl.Context, snows: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(feedback_list, "AT_ONCE", 500)
+    with falling(ctx, snows) as made:
+        drops = drops_of(made)
+        p, v, _ = state(drops)
+        within = in_view(p, v, snows, AT, HEADING)
+        seen = np.concatenate(listed(drops))
+        assert np.isin(np.flatnonzero(within > 1e-3), seen).all()
+        assert len(seen) == len(np.unique(seen)) <= (within > -1e-3).sum()
+
+
+@KINDS
 def test_pictures_are_those_of_compute(ctx: moderngl.Context, snows: bool) -> None:
     if not probe(ctx).compute:
         pytest.skip("no compute shaders here")
@@ -228,7 +242,7 @@ def test_a_larger_set_has_longer_lists(ctx: moderngl.Context, snows: bool) -> No
     """That nothing of the shorter ones is left alive is the fixture's to find."""
     with falling(ctx, snows, drops=500) as made:
         before = drops_of(made)
-        assert before.bytes_per_drop == 64 + 4 * (len(listed(before)) + 1)
+        assert before.bytes_per_drop == 64 and len(listed(before)) == (2 if snows else 1)
         esper.create_entity(PointLight((0.0, 3.0, 0.0), (9.0, 8.0, 6.0), 20.0))
         look(made)
         made.weather.quality = QualitySettings("more", 3001, 1, 256, True)

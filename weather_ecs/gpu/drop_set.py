@@ -36,9 +36,9 @@ class DropSet:
         two_sided: bool,
     ) -> None:
         self.capacity = len(births)
-        rows = self.capacity
+        self.rows = rows = self.capacity
         if two_sided:
-            rows = -(-rows // TOGETHER) * TOGETHER
+            self.rows = rows = -(-rows // TOGETHER) * TOGETHER
             births = np.pad(births, ((0, rows - self.capacity), (0, 0)))
         self.births = ctx.buffer(np.ascontiguousarray(births, np.float32))
         self.states = [ctx.buffer(reserve=rows * STATE_BYTES) for _ in range(2 if two_sided else 1)]
@@ -59,10 +59,14 @@ class DropSet:
         self._arrays[name] = [self._array(program, state, None) for state in self.states]
 
     def arrays_for(
-        self, program: moderngl.Program, ids: moderngl.Buffer
+        self, program: moderngl.Program, ids: moderngl.Buffer | None = None
     ) -> list[moderngl.VertexArray]:
-        """Vertex arrays over the drops that `ids` lists, by `current`; the caller's to release."""
-        return [self._array(program, state, ids) for state in self.states]
+        """Vertex arrays over the drops that `ids` lists, by `current`; the caller's to release.
+
+        None: that the other side lists, the one that is idle.
+        """
+        sides = zip(self.states, reversed(self.states), strict=True)
+        return [self._array(program, state, idle if ids is None else ids) for state, idle in sides]
 
     def _array(
         self, program: moderngl.Program, state: moderngl.Buffer, ids: moderngl.Buffer | None

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import moderngl
 
 from weather_ecs.gpu import gl_enums as e
 from weather_ecs.gpu.drop_set import TOGETHER, DropSet
+from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.shader_loader import ProgramKey
 
 CULL = ProgramKey(
@@ -22,6 +23,7 @@ CULL_APART = ProgramKey(
     separate=True,
 )
 CULL_NAME = "cull"  # of the array that is looked through
+AT_ONCE = 65_536  # indices that are emptied at a time
 
 # What a geometry shader needs to write two lists of different lengths.
 _STREAMS = {"GL_ARB_gpu_shader5", "GL_ARB_transform_feedback3"}
@@ -32,38 +34,79 @@ def has_streams(ctx: moderngl.Context) -> bool:
     return ctx.extensions >= _STREAMS
 
 
-class FeedbackList:
-    """Four bytes a drop and list, and four that empty them; the order is that of the drops.
+class Lister:
+    """What all lists need: indices that start primitives anew, and writing to ranges of a buffer.
 
-    How many there are stays on the GPU: lists are drawn whole, and behind the last of those in view
-    stands the index that starts primitives anew, of which nothing comes. `draw` are the programs
-    without lamps and with them; with `far`, those for what is a few pixels large, there is a second
-    list.
+    moderngl writes to buffers from the same place in each.
     """
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.ctx = ctx
+        self._gl = GL()
+        self._anew = ctx.buffer(b"\xff" * (4 * AT_ONCE))
+
+    def empty(self, buffer: moderngl.Buffer, first: int, count: int) -> None:
+        """Let none of so many indices be a drop's."""
+        for done in range(0, count, AT_ONCE):
+            size = 4 * min(count - done, AT_ONCE)
+            self.ctx.copy_buffer(buffer, self._anew, size, write_offset=4 * (first + done))
+
+    def write(
+        self, cull: Any, array: moderngl.VertexArray, count: int, ids: moderngl.Buffer,
+        firsts: Sequence[int],
+    ) -> None:  # fmt: skip
+        """Run `cull` over so many drops; its outputs go to `ids`, each from a first one on."""
+        gl, target = self._gl, e.TRANSFORM_FEEDBACK_BUFFER
+        cull["streak_count"] = count
+        gl.glUseProgram(cull.glo)
+        gl.glBindVertexArray(array.glo)
+        for slot, first in enumerate(firsts):
+            gl.glBindBufferRange(target, slot, ids.glo, 4 * first, 4 * count)
+        gl.glEnable(e.RASTERIZER_DISCARD)
+        gl.glBeginTransformFeedback(e.POINTS)
+        gl.glDrawArrays(e.LINES_ADJACENCY, 0, -(-count // TOGETHER) * TOGETHER)
+        gl.glEndTransformFeedback()
+        gl.glDisable(e.RASTERIZER_DISCARD)
+        for slot in range(len(firsts)):
+            gl.glBindBufferBase(target, slot, 0)
+
+    def release(self) -> None:
+        """Give the indices back; twice does no harm."""
+        self._anew.release()
+
+
+class FeedbackList:
+    """The numbers of what is in view, in the set's idle side, which the next step writes anew.
+
+    So they take no room of their own; the order is that of the drops. How many there are stays
+    on the GPU: lists are drawn whole, and behind the last of those in view stands the index that
+    starts primitives anew, of which nothing comes. `draw` are the programs without lamps and with
+    them; with `far`, those for what is a few pixels large, there is a second list.
+    """
+
+    bytes_per_drop = 0
 
     def __init__(
         self,
-        ctx: moderngl.Context,
+        lister: Lister,
         drops: DropSet,
         draw: Mapping[bool, moderngl.Program],
         far: Mapping[bool, moderngl.Program] | None = None,
     ) -> None:
         self.drops = drops
-        self._ctx = ctx
-        self._empty = ctx.buffer(b"\xff" * (4 * drops.capacity))
-        self.ids: list[moderngl.Buffer] = []
+        self._lister = lister
         # By list, then by whether there are lamps, then by the side of the set that is read.
-        self._arrays: list[dict[bool, list[moderngl.VertexArray]]] = []
-        for programs in (draw, far) if far else (draw,):
-            ids = ctx.buffer(reserve=4 * drops.capacity)
-            self.ids.append(ids)
-            self._arrays.append(
-                {lit: drops.arrays_for(each, ids) for lit, each in programs.items()}
-            )
+        self._arrays = [
+            {lit: drops.arrays_for(each) for lit, each in programs.items()}
+            for programs in ((draw, far) if far else (draw,))
+        ]
+        # Index at which each list begins.
+        self.firsts = tuple(k * drops.rows for k in range(len(self._arrays)))
 
     @property
-    def bytes_per_drop(self) -> int:
-        return 4 * (len(self.ids) + 1)
+    def ids(self) -> moderngl.Buffer:
+        """Where the lists are now."""
+        return self.drops.states[1 - self.drops.current]
 
     def draw(self, cull: Any, count: int, lit: bool) -> None:
         """List those of the first `count` drops that are in view, by the program `cull`, and draw.
@@ -72,16 +115,15 @@ class FeedbackList:
         """
         if count <= 0:
             return
-        for ids in self.ids:
-            self._ctx.copy_buffer(ids, self._empty, 4 * count)
-        cull["streak_count"] = count
-        array = self.drops.array(CULL_NAME)
-        whole = -(-count // TOGETHER) * TOGETHER
-        array.transform(self.ids, moderngl.LINES_ADJACENCY, vertices=whole)
-        self._ctx.enable_direct(e.PRIMITIVE_RESTART)
-        for arrays in reversed(self._arrays):
-            arrays[lit][self.drops.current].render(moderngl.POINTS, vertices=count)
-        self._ctx.disable_direct(e.PRIMITIVE_RESTART)
+        ids, ctx = self.ids, self._lister.ctx
+        for first in self.firsts:
+            self._lister.empty(ids, first, count)
+        self._lister.write(cull, self.drops.array(CULL_NAME), count, ids, self.firsts)
+        ctx.enable_direct(e.PRIMITIVE_RESTART)
+        for arrays, first in zip(reversed(self._arrays), reversed(self.firsts), strict=True):
+            array = arrays[lit][self.drops.current]
+            array.render(moderngl.POINTS, vertices=count, first=first)
+        ctx.disable_direct(e.PRIMITIVE_RESTART)
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""
@@ -89,5 +131,3 @@ class FeedbackList:
             for arrays in by_lamps.values():
                 for array in arrays:
                     array.release()
-        for buffer in (*self.ids, self._empty):
-            buffer.release()

@@ -152,6 +152,8 @@ class GL:
     glReadPixels: Callable[[I, I, I, I, U, U, P], None]
     # drawing, computing
     glDrawArrays: Callable[[U, I, I], None]
+    glBeginTransformFeedback: Callable[[U], None]
+    glEndTransformFeedback: Callable[[], None]
     glDispatchCompute: Callable[[U, U, U], None] | None
     glMemoryBarrier: Callable[[U], None] | None
     glFlush: Callable[[], None]

@@ -12,7 +12,7 @@ from weather_ecs.gpu.air_block import AirBlock
 from weather_ecs.gpu.blocks import BlockBuffer
 from weather_ecs.gpu.compute_order import ComputeOrder
 from weather_ecs.gpu.drop_set import DropSet
-from weather_ecs.gpu.feedback_list import FeedbackList
+from weather_ecs.gpu.feedback_list import FeedbackList, Lister
 from weather_ecs.gpu.impact_list import ImpactList, list_for
 from weather_ecs.gpu.impact_times import ImpactTimes, in_epoch
 from weather_ecs.gpu.kind_programs import MOTION_UNIT as MOTION_UNIT
@@ -73,6 +73,7 @@ class RainPass:
         if self._find is not None:
             self._find["shelter_map"], self._find["shelter_motion"] = SHELTER_UNIT, MOTION_UNIT
         self._order = ComputeOrder(ctx)
+        self._lister: Lister | None = None
         self._times = ImpactTimes(shaders, self._order)
         self._step_block = BlockBuffer(ctx, RAIN_STEP)
         self._air = AirBlock(ctx)
@@ -209,7 +210,9 @@ class RainPass:
         """Of those in view, for a set of drops."""
         if self._lists:
             return StreakList(self._ctx, drops, kind.draw, kind.far, self._order)
-        return FeedbackList(self._ctx, drops, kind.draw, kind.far)
+        if self._lister is None:
+            self._lister = Lister(self._ctx)
+        return FeedbackList(self._lister, drops, kind.draw, kind.far)
 
     def bind_blocks(self, view: ViewData) -> None:
         """Bind what drawing reads: the block of containers, and the air's."""
@@ -289,6 +292,8 @@ class RainPass:
             self.forget(observer)
         for kind in self._kinds.values():
             kind.release()
+        if self._lister is not None:
+            self._lister.release()
         self._draw_block.release()
         self._step_block.release()
         self._air.release()
