@@ -40,9 +40,9 @@ class Wind(Component):
     """A wind over the whole world; several add up.
 
     By its law (Liu and Tong 2015, 2.3) the speed is constant for ever, or that of a gust or of a
-    steady wind that begins at `start` and ends with the last of its `times`. Over that, gusts come by chance,
-    and the direction veers. Everything follows from the weather's clock, the seed and the entity:
-    nothing has to be stored, and a client and its server agree. See docs/wind.md.
+    steady wind that begins at `start` and ends with the last of its `times`. Over that, gusts come
+    by chance, and the direction veers. Everything follows from the weather's clock, the seed and
+    the entity: nothing has to be stored, and a client and its server agree. See docs/wind.md.
     """
 
     direction: tuple[float, float] = (1.0, 0.0)  # (x, z), where it blows to; kept at length 1
