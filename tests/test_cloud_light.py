@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import moderngl
@@ -16,12 +17,13 @@ from numpy.typing import NDArray
 from tests.cloud_captures import CENTERS, captured, expected_places
 from tests.cloud_stage import cloud_stage, clouds, shape, sky_frame, view_of
 from weather_ecs.frame import CloudLook, FogData, SkyLight
-from weather_ecs.gpu.cloud_scene import surround_of
+from weather_ecs.gpu.cloud_scene import haze_of, surround_of
 from weather_ecs.gpu.view_block import encode
 from weather_ecs.physics import cloud_billboard, cloud_light
 from weather_ecs.physics.cloud_light import Body, surround
 from weather_ecs.physics.cloud_spread import Spread
 from weather_ecs.physics.high_sun import LEVELS
+from weather_ecs.physics.sky_map import shown
 
 
 @pytest.fixture
@@ -252,3 +254,19 @@ def test_the_plain_model_has_no_haze(ctx: moderngl.Context) -> None:
         hazy = stage.draw(sky_frame(far, data, fog=fog))
     np.testing.assert_array_equal(plain[0], plain[1])
     assert np.abs(hazy - plain[0]).max() > 0.05
+
+
+def test_far_clouds_vanish_in_the_sky_as_it_is_drawn() -> None:
+    """Whose light is bent below 1, but where the host draws it with a curve of its own."""
+    data = shape(billboards=12, absorbed=0.0)
+    sky = SkyLight(horizon_color=(0.6, 0.8, 1.1), zenith_color=(0.6, 0.8, 1.1), sun_color=(0, 0, 0))
+    center = np.array([[0.0, 300.0, -20_000.0]])
+    found = []
+    for draw in (True, False):
+        air: Any = SimpleNamespace(draw=draw)
+        view = view_of(sky_frame(clouds({}), data, sky=sky, atmosphere=air))
+        found.append(haze_of(view, surround_of(view), center)[0, :3])
+    drawn, own = found
+    np.testing.assert_allclose(drawn, shown(np.array([0.6, 0.8, 1.1])), atol=1e-4)
+    np.testing.assert_allclose(own, encode(np.array([0.6, 0.8, 1.1])), atol=1e-4)
+    assert drawn[2] < 0.9 < 1.0 < own[2]

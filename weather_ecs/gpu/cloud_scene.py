@@ -13,6 +13,7 @@ from weather_ecs.gpu.view_block import encode
 from weather_ecs.physics import cloud_light, cloud_view
 from weather_ecs.physics.cloud_light import Surround
 from weather_ecs.physics.cloud_shade import packed
+from weather_ecs.physics.sky_map import shown
 
 REACH = 200_000.0  # m, beyond which no cloud is drawn
 LOST = 0.90, 0.99  # share of haze from which a cloud fades, and at which it is gone
@@ -94,7 +95,9 @@ def haze_of(view: ViewData, light: Surround, center: Floats) -> NDArray[np.float
     if not view.frame.cloud_look.plain:
         sky = view.frame.sky
         color = cloud_light.haze_color(center, sky.horizon_color, sky.zenith_color, light)
-        haze[:, :3] = encode(color)
+        # What is drawn of the sky behind them is bent below 1: they shall vanish in it.
+        air = view.frame.atmosphere
+        haze[:, :3] = shown(color) if air is not None and air.draw else encode(color)
         extinction = view.frame.fog.extinction
         haze[:, 3] = cloud_light.haze_share(center, view.position[1], extinction)
     return haze

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from weather_ecs.physics.cloud_billboard import smoothstep
+from weather_ecs.physics.haze import whitened
 from weather_ecs.physics.high_sun import LEVELS, sun_at
 from weather_ecs.physics.optics import CLEAR
 
@@ -53,9 +54,10 @@ def surround(
     )
     towards = np.asarray(direction, np.float64)
     up = max(float(towards[1]), 0.0)
-    above = 0.74 * zenith + 0.16 * horizon
+    # Half bleached: what comes out of the shade of a cloud is the sun's light, too, of many turns.
+    above = whitened(0.74 * zenith + 0.16 * horizon)
     # Ground lit by sun and sky, and the bright air between.
-    below = ground * (0.55 * sun * up + 0.35 * zenith) + 0.20 * horizon + 0.18 * zenith
+    below = ground * (0.55 * sun * up + 0.35 * zenith) + whitened(0.20 * horizon + 0.18 * zenith)
     plain = 0.45 * zenith + 0.15 * horizon + 0.15 * ground
     by_height = np.tile(sun, (LEVELS, 1)) if suns is None else np.asarray(suns, np.float64)
     return Surround(towards, sun, above, below, plain, by_height)

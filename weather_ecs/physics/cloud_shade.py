@@ -20,7 +20,7 @@ from weather_ecs.physics.cloud_billboard import smoothstep
 STRENGTH = 1.5  # factor on a depth: what light passes through two clouds has lost its way
 OWN = 0.5  # of a cloud's own sizes, by which it reaches out of another's shadow
 INNER, OUTER = 0.45, 1.25  # distance from the middle over the sizes: all in the shadow, and none
-BEFORE = 0.35, 1.0  # the same along the light, from which on a cloud is before another
+BEFORE = 0.6, 1.2  # the same along the light, from which on a cloud is before another
 WIDER = 0.6  # m, by which an outline is wider for the sky for each m that it stands higher
 SKY = 0.7  # at most, of the sky's light: the rest comes from the sides
 PACKED = 0.999
