@@ -13,7 +13,9 @@ from weather_ecs.errors import ContextError
 ADDRESS = ctypes.c_void_p
 FUNCTION: Any = getattr(ctypes, "WINFUNCTYPE", ctypes.CFUNCTYPE)
 # Calls that neither wait nor take long keep Python's lock: to give it up and take it back is a
-# fifth of what such a call costs. Windows of 32 bits calls by another convention.
+# fifth of what such a call costs. Windows of 32 bits calls by another convention. A host's debug
+# callback in Python must be synchronous (GL_DEBUG_OUTPUT_SYNCHRONOUS): one that a driver's thread
+# calls would wait for the lock, and the driver for it.
 QUICK: Any = ctypes.PYFUNCTYPE if ctypes.sizeof(ADDRESS) == 8 else FUNCTION
 
 Current = Callable[[], int | None]
