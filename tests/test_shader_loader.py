@@ -11,6 +11,7 @@ import pytest
 from weather_ecs.errors import ContextError, InvalidValueError, ShaderError
 from weather_ecs.gpu import blocks
 from weather_ecs.gpu.blocks import UniformBlock
+from weather_ecs.gpu.gl import GL
 from weather_ecs.gpu.shader_loader import ProgramKey, ShaderLoader
 from weather_ecs.gpu.shader_source import Source, resolve
 
@@ -116,6 +117,21 @@ def test_nothing_is_left_of_a_program_that_failed(loader: ShaderLoader, files: P
         loader.program(key)
     write(files, MAIN % "1.0")
     assert loader.program(key).glo
+
+
+def test_nothing_is_left_after_thousands_of_programs(
+    loader: ShaderLoader, files: Path, gl: GL
+) -> None:
+    """Mesa gives no name out twice; that nothing is left alive is the fixture's to find."""
+    for _ in range(3000):
+        gl.glDeleteProgram(gl.glCreateProgram())
+    last = gl.glCreateProgram()
+    gl.glDeleteProgram(last)
+    key = write(files, "void main() { gl_Position = oops; }\n")
+    for _ in range(2):
+        with pytest.raises(ShaderError):
+            loader.program(key)
+    assert not any(gl.glIsProgram(name) for name in range(last, last + 200))
 
 
 def test_a_second_stage_that_fails_leaves_nothing(loader: ShaderLoader, files: Path) -> None:

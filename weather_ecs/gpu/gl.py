@@ -96,6 +96,7 @@ class GL:
     # programs, vertex arrays, buffers
     glUseProgram: Callable[[U], None]
     glIsProgram: Callable[[U], B]
+    glCreateProgram: Callable[[], U]
     glDeleteProgram: Callable[[U], None]
     glGetAttachedShaders: Callable[[U, I, P, P], None]
     glIsShader: Callable[[U], B]

@@ -62,6 +62,9 @@ class ProgramKey:
         return " + ".join(self.stages.values()) + defines
 
 
+NAMES = 64  # that are looked through for what a failed program has left
+
+
 class ShaderLoader:
     """Compiles and keeps the programs of one context."""
 
@@ -93,7 +96,7 @@ class ShaderLoader:
             for stage, name in key.stages.items()
         }
         texts: dict[str, Any] = {f"{stage}_shader": s.text for stage, s in sources.items()}
-        before = programs(self._gl)
+        before = programs(self._gl, first := next_name(self._gl))
         try:
             if key.compute:
                 built: Any = self._ctx.compute_shader(sources["compute"].text)
@@ -104,7 +107,7 @@ class ShaderLoader:
                 )
         except moderngl.Error as error:
             # moderngl leaves a program that does not compile alive, without a way to release it.
-            for left in programs(self._gl) - before:
+            for left in programs(self._gl, first) - before:
                 delete(self._gl, left)
             raise ShaderError(explain(key, sources, str(error))) from None
         assign_bindings(self._ctx, built)
@@ -117,9 +120,16 @@ class ShaderLoader:
         self._programs.clear()
 
 
-def programs(gl: GL) -> set[int]:
-    """Names of the programs there are; drivers hand out the lowest free name."""
-    return {name for name in range(1, 2048) if gl.glIsProgram(name)}
+def next_name(gl: GL) -> int:
+    """The name that a new program gets, or the one before it where drivers count on."""
+    name = gl.glCreateProgram()
+    gl.glDeleteProgram(name)
+    return name
+
+
+def programs(gl: GL, first: int) -> set[int]:
+    """Names of the programs there are, of the few that may be handed out from `first` on."""
+    return {name for name in range(first, first + NAMES) if gl.glIsProgram(name)}
 
 
 def delete(gl: GL, program: int) -> None:
