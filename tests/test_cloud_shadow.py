@@ -101,6 +101,31 @@ def test_without_clouds_sun_or_the_wish_there_is_none(stage: CloudStage) -> None
     assert (sunlight(stage, [(x, 0.0, -300.0) for x in range(-3000, 3000, 100)]) == 1.0).all()
 
 
+def test_a_map_rests_for_a_while_unless_sun_camera_or_someone_at_work_needs_a_new_one(
+    stage: CloudStage,
+) -> None:
+    stage.renderer.cloud_shadow()
+    up = (0.0, 1.0, 0.0)
+
+    def new_maps(times: Any, sun: Any = lambda time: up, **camera: Any) -> int:
+        """Among draws at these times, how many show another map than the draw before."""
+        known, count = stage.passes.shadows.known(0), 0
+        for time in times:
+            before = known.texture
+            stage.draw(one_cloud(sun(time), time=float(time)), **camera)
+            count += known.texture is not before
+        return count
+
+    second = np.arange(0.0, 1.0, 0.05)
+    new_maps([0.0], dt=0.05)
+    often = len(second)
+    assert new_maps(second, dt=0.05) in (2, 3, 4)
+    assert new_maps(second, dt=0.0) == often  # while time stands still
+    lower = [(float(np.sin(a)), float(np.cos(a)), 0.0) for a in 0.2 + 0.01 * np.arange(often)]
+    assert new_maps(second, lambda time: lower[round(time / 0.05)], dt=0.05) == often
+    assert new_maps([1.0, 1.05], lambda time: lower[-1], dt=0.05, position=(900.0, 2.0, 0.0)) == 1
+
+
 def test_a_thin_or_small_cloud_takes_less(stage: CloudStage) -> None:
     stage.renderer.cloud_shadow()
     found = []

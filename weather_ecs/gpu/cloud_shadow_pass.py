@@ -26,7 +26,7 @@ SIZE = 256  # texels on a side
 SIDE = 12_000.0  # m
 LOWEST_SUN = 0.12  # sine of its height; below, shadows grow no longer but fainter
 BILLBOARDS = 600  # painted in one draw
-REST = 0.5  # s, weather time, from one map to the next: clouds change less than a texel meanwhile
+REST = 0.3  # s, weather time, from one map to the next: clouds go less than a texel meanwhile
 TURNED = 0.002  # of the sun's direction, and
 WALKED = 0.01  # of a map's side, the camera's way: after more there is no rest
 
