@@ -11,6 +11,7 @@ from typing import Any
 import esper
 import numpy as np
 import pytest
+from pyglet.math import Mat4
 
 from tests.worlds import fresh_world
 from weather_ecs import ContextError, InvalidValueError, Weather
@@ -110,6 +111,23 @@ def test_a_window_gives_context_and_matrices(made):
     weather.close()
     weather.close()
     assert made[0].released == 1
+
+
+def test_a_window_whose_projection_is_still_flat_is_told_once(made, caplog):
+    window = FakeWindow()
+    weather = Weather(window)
+    flat = Mat4.orthogonal_projection(0, 640, 0, 480, -8192, 8192)  # pyglet's first one
+    weather.draw()
+    weather.draw(projection=flat)  # somebody means it
+    window.projection = Mat4.orthogonal_projection(-32, 32, -24, 24, 0.1, 100)
+    weather.draw()
+    assert not caplog.records
+    window.projection = flat
+    for _ in range(3):
+        weather.draw()
+    (record,) = caplog.records
+    assert "flat, a pixel for a metre" in record.getMessage()
+    weather.close()
 
 
 def test_the_window_that_was_current_is_current_again(made, monkeypatch):

@@ -15,7 +15,7 @@ from weather_ecs.prepared_draw import PreparedDraw
 from weather_ecs.quality import AutoQuality, FrameCost, QualitySettings, settings_for
 from weather_ecs.simulation import check_position
 from weather_ecs.systems.rain_view import RainView
-from weather_ecs.window_context import can_be_drawn_to, check_window, current
+from weather_ecs.window_context import can_be_drawn_to, check_window, current, matrices_of
 
 if TYPE_CHECKING:
     from weather_ecs.gpu.cloud_shadow import CloudShadow
@@ -136,8 +136,7 @@ class Weather(Contents):
         if self._window is not None and not can_be_drawn_to(self._window):
             return None
         if self._window is not None:
-            view = self._window.view if view is None else view
-            projection = self._window.projection if projection is None else projection
+            view, projection = matrices_of(self._window, view, projection)
         return camera_from(view, projection)
 
     def ripples(

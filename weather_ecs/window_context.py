@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import logging
 import sys
 from typing import Any
+from weakref import WeakSet
 
 from weather_ecs.errors import ContextError, InvalidValueError
+
+_log = logging.getLogger("weather_ecs")
+_flat: WeakSet[Any] = WeakSet()  # windows of which the log has said that they are
 
 
 def check_window(window: Any) -> None:
@@ -24,6 +29,31 @@ def can_be_drawn_to(window: Any) -> bool:
         return False
     width, height = window.get_size()
     return width > 0 and height > 0
+
+
+def matrices_of(window: Any, view: Any, projection: Any) -> tuple[Any, Any]:
+    """View and projection, those that are None by the window's own.
+
+    One line in the log tells a game that has set none: pyglet's first projection is flat.
+    """
+    if view is None:
+        view = window.view
+    if projection is None:
+        projection = window.projection
+        if _is_flat(projection, window.get_size()[0]) and window not in _flat:
+            _flat.add(window)
+            _log.warning(
+                "the window's projection is flat, a pixel for a metre: set window.view and "
+                "window.projection to the camera's, or hand both to draw"
+            )
+    return view, projection
+
+
+def _is_flat(projection: Any, width: int) -> bool:
+    """Whether it is a pyglet `Mat4` of parallel rays, with a pixel for a metre."""
+    if not isinstance(projection, tuple) or len(projection) != 16:
+        return False
+    return bool(projection[15] == 1.0 and abs(projection[0] * width - 2.0) < 0.01)
 
 
 class current:  # no generator: that takes three times as long, in every draw
