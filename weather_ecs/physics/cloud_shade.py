@@ -1,6 +1,6 @@
 """How much of the light of sun and sky other clouds take from a cloud.
 
-A cloud stands for an ellipsoid as large as the box of its seeds, thinned to what they fill of it.
+A cloud stands for an ellipsoid whose matter lies as its seeds do, thinned to what they fill of it.
 Along a light it is as deep as its longest chord there over the light's penetration: of that depth
 Beer and Lambert's law leaves the light behind it. What stands in that light, itself so large, is
 hidden by and by as its middle comes behind the other's outline; of a larger one, a part is. For the

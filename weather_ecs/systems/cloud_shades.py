@@ -11,7 +11,6 @@ from weather_ecs.systems.cloud_shapes import Shape, Vector
 IN_TURN, PAIRS = 2, 300  # clouds that a frame looks at again, and beside how many others in all
 AT_ONCE = 64  # new ones that one step does
 SETTLING = 1.5  # s, in which a cloud comes to show what was found
-MOST_FILLED = 1.5  # seeds' boxes are rounder than their ellipsoid: as much more of it they fill
 
 
 class CloudShades:
@@ -23,8 +22,8 @@ class CloudShades:
         self._shown = np.zeros((0, 2))
         self._next = 0
         self._time = 0.0  # s, the weather's clock
-        self._known: dict[int, tuple[float, ...]] = {}  # half sizes and density by a shape's key
-        self._sizes = np.zeros((0, 4))
+        self._known: dict[int, tuple[float, ...]] = {}  # of shapes by their keys, see `_size`
+        self._sizes = np.zeros((0, 5))
         self._shapes: list[Shape] = []
 
     def put(self, rows: NDArray, shapes: list[Shape], light: Vector, time: float) -> None:
@@ -53,7 +52,7 @@ class CloudShades:
         ):
             return
         self._known = {each.key: self._known.get(each.key) or _size(each) for each in shapes}
-        self._sizes = np.array([self._known[each.key] for each in shapes]).reshape(-1, 4)
+        self._sizes = np.array([self._known[each.key] for each in shapes]).reshape(-1, 5)
         self._shapes = list(shapes)
 
     def _bodies(self, rows: NDArray) -> Bodies:
@@ -61,7 +60,9 @@ class CloudShades:
         scale = np.maximum(rows["scale"].astype(np.float64), 1e-6)
         half = sizes[:, :3] * scale[:, None]
         there = rows["opacity"] * rows["growth"]
-        return Bodies(rows["position"], half, sizes[:, 3] * there / scale)
+        center = rows["position"].copy()
+        center[:, 1] += sizes[:, 4] * scale
+        return Bodies(center, half, sizes[:, 3] * there / scale)
 
     def _remap(self, keys: NDArray) -> NDArray[np.intp]:
         """The clouds are other ones: keep what is known; returns the rows of the new ones."""
@@ -82,8 +83,17 @@ def _of(bodies: Bodies, which: NDArray[np.intp], light: NDArray) -> NDArray[np.f
 
 
 def _size(shape: Shape) -> tuple[float, ...]:
-    """Half sizes, m, and how dense the ellipsoid is, 1/m at its full size."""
-    half = np.maximum(np.array(shape.half), 1e-3)
-    filled = float(np.prod(shape.made.sizes, axis=1).sum() / np.prod(2.0 * half))
-    share = min(MOST_FILLED * filled, 1.0) * shape.model.opacity
-    return (*half.tolist(), share / max(shape.model.light_penetration, 1e-3))
+    """Of the ellipsoid whose matter lies as the seeds do: half sizes, m, how dense it is, 1/m, and
+    how high it stands over the shape's middle, m.
+
+    It has their mean height and their variance, which a full ellipsoid has a fifth of its square.
+    """
+    volumes = np.prod(shape.made.sizes, axis=1)
+    weights = (volumes / volumes.sum())[:, None]
+    centers, sizes = shape.made.centers, shape.made.sizes
+    middle = (weights * centers).sum(0)
+    variance = (weights * ((centers - middle) ** 2 + sizes**2 / 12.0)).sum(0)
+    half = np.maximum(np.sqrt(5.0 * variance), 1e-3)
+    filled = min(float(volumes.sum() / (4.0 / 3.0 * np.pi * np.prod(half))), 1.0)
+    dense = filled * shape.model.opacity / max(shape.model.light_penetration, 1e-3)
+    return (*half.tolist(), dense, float(middle[1]))
