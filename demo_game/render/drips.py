@@ -1,21 +1,26 @@
-"""Drops that the cabin's eaves shed while its roof is wet."""
+"""Drops that the cabin's eaves shed while its roof is wet, and rings on puddles."""
 
 from __future__ import annotations
+
+import itertools
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from demo_game.place import Place, bake, eaves
+from demo_game.place import Place, bake, eaves, rings
 
 from . import geometry
 from .environment import Environment
 from .frame_block import FrameBlock
-from .programs import Look, Variants, compile_program, release_all
+from .programs import Look, Variants, compile_program, release_all, set_uniforms
 
 SLOTS = 4  # drops of one place that may be on their way at once
 SEEN = 45.0  # m from the camera
 FAINTEST = 1e-3  # mm/h, of rain that wets a roof
+RINGS_SEEN = 9.0  # m from the camera
+STRETCH = 1.5  # m of the trails that are drawn or not
+UNITS = {"detail_map": 1, "sky_map": 3}
 
 
 class Drips:
@@ -67,3 +72,47 @@ class Drips:
     def release(self) -> None:
         """Give everything back."""
         release_all((*self.looks, self._corners, self._drips))
+
+
+class PuddleRings:
+    """A triangle a place, of those near the camera; the shader finds which have a ring."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
+        self._ctx = ctx
+        sites = rings.sites(place.terrain, place.meadow)
+        # Stretches of the trails with their boxes, from south to north.
+        steps = np.arange(-sites[0, 2], -sites[-1, 2] + STRETCH, STRETCH)
+        ends = np.unique(np.searchsorted(-sites[:, 2], steps))
+        parts = [sites[a:b] for a, b in itertools.pairwise(ends)]
+        self._ends = ends
+        self._low = np.array([part.min(0) for part in parts]) - 0.3
+        self._high = np.array([part.max(0) for part in parts]) + 0.3
+        self._vertices = ctx.buffer(np.repeat(sites, 3, axis=0).astype("f4").tobytes())
+        content = [(self._vertices, "3f4", "in_place")]
+
+        def look(*defines: str) -> Look:
+            program = compile_program(ctx, "ring.vert", "ring.frag", *defines)
+            block.attach(program)
+            set_uniforms(program, reach=RINGS_SEEN, **UNITS)
+            return program, [ctx.vertex_array(program, content)]
+
+        self.looks = (Variants(look),)
+
+    def draw(self, planes: NDArray, camera: NDArray, environment: Environment) -> None:
+        """Draw those near the camera where it rains; tested against depth, not written to it."""
+        if not any(area[3] > FAINTEST for area in environment.rain_areas):
+            return
+        seen = geometry.box_distance(camera, self._low, self._high) < RINGS_SEEN
+        seen &= geometry.boxes_seen(planes, self._low, self._high)
+        shown = np.flatnonzero(seen)
+        if not len(shown):
+            return
+        first, last = self._ends[shown[0]], self._ends[shown[-1] + 1]
+        self._ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
+        self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
+        array = self.looks[0].arrays[0]
+        array.render(moderngl.TRIANGLES, vertices=3 * int(last - first), first=3 * int(first))
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all((*self.looks, self._vertices))

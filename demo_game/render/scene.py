@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from demo_game.place import Place, paint
 
 from . import geometry, sunlight
-from .drips import Drips
+from .drips import Drips, PuddleRings
 from .environment import Air, Environment
 from .flag import Flag
 from .frame_block import FrameBlock, as_matrix, unit
@@ -49,6 +49,7 @@ class SceneRenderer:
         self._flag = Flag(ctx, self._block, place)
         self._water = Water(ctx, self._block, place)
         self._drips = Drips(ctx, self._block, place)
+        self._rings = PuddleRings(ctx, self._block, place)
         self._pools = LampPools(ctx, self._block, place)
         self._halos = Halos(ctx, self._block, place)
         self._openings = Openings(place)
@@ -57,7 +58,8 @@ class SceneRenderer:
         self._detail.build_mipmaps()
         self._detail.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         solid = (self._actors, self._trees, self._meadow, self._flag, self._ground)
-        self._looks = [look for part in (*solid, self._water, self._drips) for look in part.looks]
+        blended = (self._water, self._drips, self._rings)
+        self._looks = [look for part in (*solid, *blended) for look in part.looks]
         self._prepared: set[moderngl.Program] = set()
         self._defines: tuple[str, ...] | None = None
         self._casting: list[tuple[NDArray, float]] = []  # what moves and throws its shadow
@@ -204,6 +206,7 @@ class SceneRenderer:
         if self._water.seen(planes, camera) < np.inf:
             self._water.draw(environment.ripples)
         self._pools.draw(planes, camera)
+        self._rings.draw(planes, camera, environment)
         size = target.viewport[2], target.viewport[3]
         self._drips.draw(planes, camera, environment, projection, size)
         self._halos.draw(view)
@@ -233,7 +236,8 @@ class SceneRenderer:
         if self._released:
             return
         self._released = True
-        release_all((self._halos, self._drips, self._pools, self._water, self._flag, self._meadow))
+        release_all((self._halos, self._rings, self._drips, self._pools, self._water))
+        release_all((self._flag, self._meadow))
         release_all((self._trees, self._actors, self._statics))
         release_all((self._ground_shadow, self._ground))
         release_all((self._shadows, self._sky, self._detail, self._block))

@@ -2,6 +2,7 @@
 // drops there are follows from the time and the water on the roof alone, so that nothing is kept.
 #include "frame.glsl"
 #include "light.glsl"
+#include "lot.glsl"
 
 in vec2 in_corner;   // -1..1 across, 0..1 along
 in vec4 in_drip;     // xyz m, w height of what stops it
@@ -20,17 +21,6 @@ const float WIDE = 0.0048;   // m, of a drop that an edge lets go
 const float TALL = 0.06;    // m, of what it throws up
 const float HALF = 0.16;     // mm of water on open ground at which half the drops are there
 const float EXPOSURE = 0.04;  // s
-
-// A step of PCG's output (O'Neill 2014), and the number in [0, 1) of a word.
-uint hash_word(uint x) {
-    uint state = x * 747796405u + 2891336453u;
-    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
-
-float hash_unit(uint x) {
-    return float(hash_word(x) >> 8u) / 16777216.0;
-}
 
 void main() {
     vec3 p = in_drip.xyz;

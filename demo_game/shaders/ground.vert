@@ -4,6 +4,7 @@
 #ifdef NEAR
 #include "breeze.glsl"
 #ifdef WET
+#include "puddle_rise.glsl"
 #include "sky_map.glsl"
 uniform sampler2D sky_map;
 #endif
@@ -39,15 +40,6 @@ out float v_rise;         // mm of water that run off here to where the ground i
 #else
 out vec4 v_wild;
 flat out vec3 v_horizon;
-#endif
-
-#ifdef WATER
-// Broad and never the same again, so that the puddles of the tiled grain are not either.
-float rise(vec2 p)
-{
-    vec2 q = p + 2.4 * sin(p.yx * vec2(0.23, 0.31));
-    return sin(0.61 * q.x + 0.28 * q.y) * sin(0.52 * q.y - 0.17 * q.x);
-}
 #endif
 
 void main() {
@@ -86,7 +78,7 @@ void main() {
     v_place.w = weather_open_wetness(in_position);
     v_maps.zw = weather_wet_place(in_position);
     v_ragged = 0.5 * weather_wet_frame.z;
-    v_rise = 2.2 * rise(in_position.xz);
+    v_rise = puddle_rise(in_position.xz);
 #endif
 #endif
     v_gust = 0.45 * grass_lean(in_position.xz) - 0.12;

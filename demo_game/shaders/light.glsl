@@ -29,6 +29,19 @@ vec2 rain_cover(vec2 p) {
     return cover;
 }
 
+// 0 to 1: how thick rain falls at p.
+float rain_falls(vec2 p) {
+    float most = 0.0;
+    for (int i = 0; i < int(fog_color.w); i++) {
+        vec2 d = p - area_shape[i].xy;
+        vec2 turn = area_turn[i].xy;
+        vec2 q = vec2(d.x * turn.x - d.y * turn.y, d.x * turn.y + d.y * turn.x);
+        float inside = 1.0 - smoothstep(0.9, 1.0, length(q * area_shape[i].zw));
+        most = max(most, (2.0 * area_turn[i].z - 0.7) * inside);
+    }
+    return most;
+}
+
 // 0 to 1: how much of a surface at p with a unit normal n snow hides.
 float snow_cover(vec3 p, vec3 n) {
 #ifdef SNOWS
