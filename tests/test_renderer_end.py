@@ -174,6 +174,26 @@ def test_observers_that_come_and_go_leave_nothing(made: Stage, gl: GL) -> None:
     assert counts[0] == counts[-1]
 
 
+def test_who_went_while_another_context_was_current_is_forgotten_later(made: Stage, gl: GL) -> None:
+    esper.create_entity(near())
+    made.play(2)
+    made.weather.air()
+    before = living(gl)
+    seen = Observer()
+    made.draw(observer=seen)
+    made.weather.air(observer=seen)
+    assert living(gl) != before
+    del seen
+    gc.collect()
+    other = moderngl.create_context(standalone=True, backend="egl")
+    with other, pytest.raises(ContextError, match="not current"):
+        made.weather.draw(look_from((0.0, 1.7, 0.0), 0.0), perspective())
+    other.release()
+    made.ctx.__enter__()
+    made.play(1)
+    assert living(gl) == before
+
+
 def test_entities_that_come_and_go_leave_nothing(made: Stage, gl: GL) -> None:
     """Two hundred of each kind, drawn while they lived."""
     esper.create_entity(near())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 from weakref import WeakKeyDictionary, finalize
 
@@ -30,12 +31,11 @@ class ObserverKeys:
             finalize(observer, self._retired.append, key).atexit = False
         return key
 
-    def retired(self) -> list[int]:
-        """Numbers whose observers have gone since the last call."""
-        gone = []
+    def retired(self) -> Iterator[int]:
+        """Numbers whose observers have gone; each comes again until the next one is asked for."""
         while self._retired:
-            gone.append(self._retired.pop())
-        return gone
+            yield self._retired[0]  # others may come behind it meanwhile
+            del self._retired[0]
 
     def __len__(self) -> int:
         return len(self._keys)

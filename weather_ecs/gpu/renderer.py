@@ -247,8 +247,8 @@ class Renderer:
 
     def forget(self, key: int) -> None:
         """Give back what belongs to an observer who is gone."""
-        air = self._airs.pop(key, None)
         with self._guard:
+            air = self._airs.pop(key, None)
             self._splash.forget(key)
             self._rain.forget(key)
             self._ripples.forget(key)
