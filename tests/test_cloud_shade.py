@@ -59,6 +59,18 @@ def test_a_small_cloud_takes_little_of_a_large_one() -> None:
     assert part == pytest.approx(0.01 * whole)
 
 
+def test_clouds_of_one_deck_leave_each_other_their_tops() -> None:
+    """However many there are, and however low the sun: what is above counts."""
+    rng = np.random.default_rng(5)
+    places = np.column_stack([*rng.uniform(-9000.0, 9000.0, (2, 80))])
+    heights = rng.uniform(1800.0, 2200.0, 80)
+    deck = bodies(*np.column_stack([places[:, 0], heights, places[:, 1]]), half=(3700, 900, 4200))
+    for light in (NOON, np.array([0.8, 0.6, 0.0]), np.array([0.995, 0.1, 0.0])):
+        assert taken(deck, deck, light).max() < 0.02
+    above = deck._replace(center=deck.center + (0.0, 3000.0, 0.0))
+    assert taken(deck, above, NOON).min() > 0.5
+
+
 def test_the_shadow_comes_evenly_and_the_sky_s_is_the_wider() -> None:
     one = bodies((0.0, 1000.0, 0.0))
     x = np.linspace(0.0, 2500.0, 126)

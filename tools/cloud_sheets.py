@@ -23,6 +23,7 @@ from demo_game.headless import make_context
 from tools.stills import run, save_sheet
 from weather_ecs import Weather, presets
 from weather_ecs.components import Atmosphere, Cloud, Sky, SkyLayer
+from weather_ecs.physics.sky_map import shown
 
 USAGE = "usage: python -m tools.cloud_sheets OUT.jpg types|sun|climate|shafts|flight|impostors"
 SIZE = (800, 450)  # px
@@ -110,7 +111,8 @@ class Plain:
         self._program["matrix"].write((projection @ view).astype("f4").T.tobytes())
         self._program["eye"] = self.pose.eye
         self._program["lit"] = tuple(lit.tolist())
-        self._program["far"] = tuple(0.8 * value for value in light.horizon_color)
+        # As the sky over it is drawn.
+        self._program["far"] = tuple((shown(np.array(light.horizon_color)) ** 2.2).tolist())
         self._ground.render(moderngl.TRIANGLE_STRIP, vertices=4)
         weather.draw(view, projection)
 

@@ -21,6 +21,7 @@ STRENGTH = 1.5  # factor on a depth: what light passes through two clouds has lo
 OWN = 0.5  # of a cloud's own sizes, by which it reaches out of another's shadow
 INNER, OUTER = 0.45, 1.25  # distance from the middle over the sizes: all in the shadow, and none
 BEFORE = 0.6, 1.2  # the same along the light, from which on a cloud is before another
+OVER = 0.3, 0.7  # the same upwards over half of both: clouds of one deck have their tops in the sun
 WIDER = 0.6  # m, by which an outline is wider for the sky for each m that it stands higher
 SKY = 0.7  # at most, of the sky's light: the rest comes from the sides
 PACKED = 0.999
@@ -41,24 +42,33 @@ def taken(of: Bodies, by: Bodies, light: FloatArray) -> FloatArray:
     up = np.array([0.0, 1.0, 0.0])
     away = by.center[None] - of.center[:, None]
     sizes = np.broadcast_to(by.half, away.shape)
-    sun = _left(away, sizes, of, by, light)
+    touching = by.half[None, :, 1] + of.half[:, None, 1]
+    over = smoothstep(*OVER, away[..., 1] / touching)
+    sun = _left(away, sizes, of, by, light, over)
     wider = sizes.copy()
     wider[..., 0::2] += (WIDER * np.maximum(away[..., 1], 0.0))[..., None]
-    sky = _left(away, wider, of, by, up)
+    sky = _left(away, wider, of, by, up, over)
     return np.stack([1.0 - sun, SKY * (1.0 - sky)], axis=1)
 
 
 def _left(
-    away: FloatArray, shadow: FloatArray, of: Bodies, by: Bodies, light: FloatArray
+    away: FloatArray,
+    shadow: FloatArray,
+    of: Bodies,
+    by: Bodies,
+    light: FloatArray,
+    over: FloatArray,
 ) -> FloatArray:
-    """(m,) of the light along a direction; shadow: (m, n, 3) half sizes of what throws it."""
+    """(m,) of the light along a direction; shadow: (m, n, 3) half sizes of what throws it; over:
+    (m, n) how far it does for being higher.
+    """
     sizes = shadow + OWN * of.half[:, None]
     place, ray = away / sizes, light / sizes
     one = np.maximum(np.sqrt(np.einsum("mni,mni->mn", ray, ray)), 1e-9)  # 1/m, along the light
     before = np.einsum("mni,mni->mn", place, ray) / one
     off = np.sqrt(np.maximum(np.einsum("mni,mni->mn", place, place) - before * before, 0.0))
     hides = (1.0 - smoothstep(INNER, OUTER, off)) * smoothstep(*BEFORE, before)
-    hides *= np.minimum(shadow[..., 0::2] / of.half[:, None, 0::2], 1.0).prod(-1)
+    hides *= over * np.minimum(shadow[..., 0::2] / of.half[:, None, 0::2], 1.0).prod(-1)
     slope = light / by.half
     depth = 2.0 * STRENGTH * by.dense / np.sqrt(np.einsum("ni,ni->n", slope, slope))
     return np.asarray(np.prod(1.0 + hides * np.expm1(-depth), axis=1))
