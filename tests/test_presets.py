@@ -50,11 +50,13 @@ def test_names_and_growing_rates():
 def test_names_in_any_spelling(spelling):
     assert PRESETS[spelling] is find(spelling) is PRESETS["light_snow"]
     assert spelling in PRESETS
+    assert PRESETS.get(spelling) is PRESETS["light_snow"]
 
 
 @pytest.mark.parametrize("name", ["", "snow", "lightsnow", 3, None])
 def test_a_name_that_is_none(name):
-    assert name not in PRESETS
+    assert name not in PRESETS and PRESETS.get(name) is None
+    assert PRESETS.get(name, "clear") == "clear"
     with pytest.raises(KeyError, match=r"no preset .*there are clear, drizzle"):
         PRESETS[name]
     with pytest.raises(InvalidValueError, match="heavy_snow"):

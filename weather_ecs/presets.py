@@ -70,13 +70,17 @@ class _Presets(dict[str, Preset]):
     """Takes "light snow" and "Light-Snow" for "light_snow"."""
 
     def __missing__(self, name: str) -> Preset:
-        known = self.get(_plain(name)) if isinstance(name, str) else None
+        known = self.get(name)
         if known is None:
             raise KeyError(f"no preset {shorten(name)}; there are {', '.join(self)}")
         return known
 
     def __contains__(self, name: object) -> bool:
         return isinstance(name, str) and super().__contains__(_plain(name))
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """The preset of a name, in any spelling, or the default."""
+        return super().get(_plain(name), default) if isinstance(name, str) else default
 
 
 def _plain(name: str) -> str:
