@@ -243,10 +243,7 @@ class Weather(Contents):
         return PreparedDraw(self._view.view(frame, camera, key, settings), settings)
 
     def forget_drawn(self) -> None:
-        """Let go of flying drops and splashes, but not observers'; for tools that set it back.
-
-        `wetness`, `heightmap`, `cloud_shadow` and `air` give others from then on.
-        """
+        """Let go of drops, splashes and maps, but not observers'; for tools that set it back."""
         self._prepared = None  # of what is forgotten now
         if self._renderer is not None and getattr(self._window, "context", self) is not None:
             with current(self._window):
