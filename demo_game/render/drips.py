@@ -18,7 +18,7 @@ from .programs import Look, Variants, compile_program, release_all, set_uniforms
 SLOTS = 4  # drops of one place that may be on their way at once
 SEEN = 45.0  # m from the camera
 FAINTEST = 1e-3  # mm/h, of rain that wets a roof
-RINGS_SEEN = 9.0  # m from the camera
+RINGS_SEEN = 7.5  # m from the camera
 STRETCH = 1.5  # m of the trails that are drawn or not
 UNITS = {"detail_map": 1, "sky_map": 3}
 
@@ -75,7 +75,7 @@ class Drips:
 
 
 class PuddleRings:
-    """A triangle a place, of those near the camera; the shader finds which have a ring."""
+    """A point a place, of those near the camera; the shader finds which have a ring."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, place: Place) -> None:
         self._ctx = ctx
@@ -87,7 +87,7 @@ class PuddleRings:
         self._ends = ends
         self._low = np.array([part.min(0) for part in parts]) - 0.3
         self._high = np.array([part.max(0) for part in parts]) + 0.3
-        self._vertices = ctx.buffer(np.repeat(sites, 3, axis=0).astype("f4").tobytes())
+        self._vertices = ctx.buffer(sites.astype("f4").tobytes())
         content = [(self._vertices, "3f4", "in_place")]
 
         def look(*defines: str) -> Look:
@@ -98,7 +98,10 @@ class PuddleRings:
 
         self.looks = (Variants(look),)
 
-    def draw(self, planes: NDArray, camera: NDArray, environment: Environment) -> None:
+    def draw(
+        self, planes: NDArray, camera: NDArray, environment: Environment, projection: NDArray,
+        size: tuple[int, int],
+    ) -> None:  # fmt: skip
         """Draw those near the camera where it rains; tested against depth, not written to it."""
         if not any(area[3] > FAINTEST for area in environment.rain_areas):
             return
@@ -108,10 +111,11 @@ class PuddleRings:
         if not len(shown):
             return
         first, last = self._ends[shown[0]], self._ends[shown[-1] + 1]
-        self._ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
+        self.looks[0].program["lens"] = 0.5 * size[1] * float(projection[1, 1])
+        self._ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND | moderngl.PROGRAM_POINT_SIZE)
         self._ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
         array = self.looks[0].arrays[0]
-        array.render(moderngl.TRIANGLES, vertices=3 * int(last - first), first=3 * int(first))
+        array.render(moderngl.POINTS, vertices=int(last - first), first=int(first))
 
     def release(self) -> None:
         """Give everything back."""

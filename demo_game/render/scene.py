@@ -206,8 +206,8 @@ class SceneRenderer:
         if self._water.seen(planes, camera) < np.inf:
             self._water.draw(environment.ripples)
         self._pools.draw(planes, camera)
-        self._rings.draw(planes, camera, environment)
         size = target.viewport[2], target.viewport[3]
+        self._rings.draw(planes, camera, environment, projection, size)
         self._drips.draw(planes, camera, environment, projection, size)
         self._halos.draw(view)
         target.depth_mask = True
