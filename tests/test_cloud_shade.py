@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from weather_ecs import Weather
 from weather_ecs.components import Atmosphere, Cloud
-from weather_ecs.physics.cloud_shade import PACKED, SKY, STRENGTH, Bodies, packed, taken
+from weather_ecs.physics.cloud_shade import PACKED, SKY, STRENGTH, SUN, Bodies, packed, taken
 
 NOON = np.array([0.0, 1.0, 0.0])
 Array = NDArray[np.float64]
@@ -28,17 +28,17 @@ def test_right_behind_a_cloud_it_is_beer_and_lambert_s_law_along_its_chord() -> 
     low, high = bodies((0.0, 1000.0, 0.0)), bodies((0.0, 4000.0, 0.0), half=(2000.0, 300.0, 900.0))
     sun, sky = taken(low, high, NOON)[0]
     left = math.exp(-STRENGTH * 600.0 * 1e-3)
-    assert sun == pytest.approx(1.0 - left)
+    assert sun == pytest.approx(SUN * (1.0 - left))
     assert sky == pytest.approx(SKY * (1.0 - left))
     # Along a slanting light the chord is longer, by the ellipsoid.
     slant = np.array([0.6, 0.8, 0.0])
     middle = (0.0 + 3000.0 * 0.75, 4000.0, 0.0)
     chord = 2.0 / math.hypot(0.6 / 2000.0, 0.8 / 300.0)
     found = taken(low, bodies(middle, half=(2000.0, 300.0, 900.0)), slant)[0, 0]
-    assert found == pytest.approx(1.0 - math.exp(-STRENGTH * chord * 1e-3))
+    assert found == pytest.approx(SUN * (1.0 - math.exp(-STRENGTH * chord * 1e-3)))
     # Two of them leave the product.
     both = Bodies(*(np.concatenate([a, a]) for a in high))
-    assert taken(low, both, NOON)[0, 0] == pytest.approx(1.0 - left * left)
+    assert taken(low, both, NOON)[0, 0] == pytest.approx(SUN * (1.0 - left * left))
 
 
 def test_nothing_is_taken_from_beside_below_or_by_what_is_thin() -> None:

@@ -23,7 +23,7 @@ INNER, OUTER = 0.45, 1.25  # distance from the middle over the sizes: all in the
 BEFORE = 0.6, 1.2  # the same along the light, from which on a cloud is before another
 OVER = 0.3, 0.7  # the same upwards over half of both: clouds of one deck have their tops in the sun
 WIDER = 0.6  # m, by which an outline is wider for the sky for each m that it stands higher
-SKY = 0.7  # at most, of the sky's light: the rest comes from the sides
+SUN, SKY = 0.85, 0.7  # at most, of their light: some comes round, of the sky's from the sides
 PACKED = 0.999
 
 
@@ -48,7 +48,7 @@ def taken(of: Bodies, by: Bodies, light: FloatArray) -> FloatArray:
     wider = sizes.copy()
     wider[..., 0::2] += (WIDER * np.maximum(away[..., 1], 0.0))[..., None]
     sky = _left(away, wider, of, by, up, over)
-    return np.stack([1.0 - sun, SKY * (1.0 - sky)], axis=1)
+    return np.stack([SUN * (1.0 - sun), SKY * (1.0 - sky)], axis=1)
 
 
 def _left(
