@@ -15,14 +15,23 @@ out vec3 v_shade;
 
 const float HALF_OUT = 5.2;  // m/s at which it stands out at 45 degrees
 
+// Integral of sqrt(1 - w w) from 0.
+float half_circle(float w) {
+    return 0.5 * (w * sqrt(max(1.0 - w * w, 0.0)) + asin(w));
+}
+
 vec3 place(vec2 at, float speed) {
     float pull = speed * speed / (HALF_OUT * HALF_OUT);
     vec2 out_down = normalize(vec2(pull, 1.0));
     float s = at.x * size.x;
     float t = at.y * size.y;
-    // The upper edge is held at the pole and sags a little; the lower corner hangs more.
-    float sag = out_down.y * (0.35 + 0.65 * at.x) + 0.03;
-    float reach = sqrt(max(1.0 - sag * sag, 0.0));
+    // The sine of its slope grows along the upper edge, which sags the more the farther out; its way
+    // out and down are the integrals.
+    float turn = max(0.65 * out_down.y, 0.02);
+    float held = min(0.35 * out_down.y + 0.03, 1.0);
+    float far = min(held + turn * at.x, 1.0);
+    float reach = size.x * (half_circle(far) - half_circle(held)) / turn;
+    float sag = size.x * (held + 0.5 * turn * at.x) * at.x;
     // What hangs gathers into folds.
     float fold = out_down.y * 0.11 * smoothstep(0.0, 0.3, at.x) * sin(at.y * 9.0 + at.x * 3.0);
     float flap = speed / (speed + 4.0);
@@ -35,8 +44,8 @@ vec3 place(vec2 at, float speed) {
     vec3 along = vec3(wind.x, 0.0, wind.y);
     vec3 side = vec3(-wind.y, 0.0, wind.x);
     float tuck = mix(1.0, 0.75, out_down.y * at.x);
-    return hoist.xyz + along * (s * reach) + side * (wave + fold)
-        - vec3(0.0, t * tuck + s * sag + 0.35 * wave * at.x + whip, 0.0);
+    return hoist.xyz + along * reach + side * (wave + fold)
+        - vec3(0.0, t * tuck + sag + 0.35 * wave * at.x + whip, 0.0);
 }
 
 void main() {
