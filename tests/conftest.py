@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
+import esper
 import moderngl
 import pytest
 from hypothesis import HealthCheck, settings
@@ -95,6 +96,17 @@ def keep(ctx: moderngl.Context) -> Iterator[Callable[[Thing], Thing]]:
     yield keep_one
     for thing in reversed(kept):
         thing.release()
+
+
+@pytest.fixture(autouse=True)
+def home() -> Iterator[None]:
+    """A test leaves esper in the world that it began in."""
+    before = esper.current_world
+    yield
+    after = esper.current_world
+    if after != before:
+        esper.switch_world(before)
+    assert after == before, f"the test has left esper in the world {after!r}"
 
 
 @pytest.fixture

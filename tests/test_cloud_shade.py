@@ -100,9 +100,7 @@ def shaded(weather: Weather, frames: int = 1, dt: float = 0.5) -> Array:
 
 
 @pytest.fixture
-def weather() -> Any:
-    esper.switch_world("shades")
-    esper.clear_database()
+def weather(world: str) -> Any:
     made = Weather(seed=2)
     made._state.drawn = True
     esper.create_entity(Atmosphere("2025-06-21T12:00:00Z", speed=0.0))
