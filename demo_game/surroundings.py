@@ -85,8 +85,8 @@ class Surroundings:
         game.entities.update(self.mood(game), game.light, SCENE_START)
 
     def _wind(self, game: Game, mood: Mood) -> tuple[float, float, float]:
-        """What the scenery sways in, m/s at 10 m; on a tour the same whatever the weather."""
-        if game.tour is None:
+        """What the scenery sways in, m/s at 10 m; where weathers are compared, always the same."""
+        if not game.is_compared:
             x, _, z = game.pose.eye
             return game.weather.sample((x, 10.0, z)).wind
         x, z = direction(mood.wind_heading)

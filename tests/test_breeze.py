@@ -55,6 +55,14 @@ def test_phases_run_faster_in_a_stronger_wind_and_wrap():
     assert long.front == pytest.approx(20.0, rel=0.01)
 
 
+def test_a_gust_comes_over_the_land_at_its_own_speed():
+    """What stands some metres off, 12 m after the wind itself, feels it within 3 s."""
+    breeze = blown([3.0] * 200 + [14.0] * 60)
+    late = 20.0 / breeze.front
+    assert np.interp(late, np.arange(PAST) * STEP, breeze.past()) > 13.0
+    assert SLOWEST < breeze.front < 14.0
+
+
 def test_the_flag_is_a_grid_on_a_pole_that_stops_walkers(ctx: moderngl.Context):
     cells = grid()
     assert cells.shape == (6 * COLUMNS * ROWS, 5)

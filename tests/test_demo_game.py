@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from types import SimpleNamespace
 
 import esper
@@ -280,6 +281,23 @@ def test_a_tour_has_the_same_scene_with_any_preset(
         pictures.append(picture(game, target))
         game.close()
     assert (pictures[0] == pictures[1]).all()
+
+
+def test_the_scenery_sways_in_the_wind_there_is_but_where_pictures_are_compared(
+    ctx: moderngl.Context, place: Place
+) -> None:
+    for name, follows in (("walk", False), ("still", True)):
+        tour = make_tour(name, place, 10.0)
+        game = Game(ctx, Settings(quality="low"), place=place, preset="heavy", tour=tour)
+        found = []
+        for speed in (3.0, 15.0):
+            game.mood.put(replace(game.mood.current, wind_speed=speed), "heavy")
+            game.update(1 / 60)
+            found.append(math.hypot(*game.surroundings.environment(game).wind))
+        assert (found[1] > 2.0 * found[0]) is follows
+        if not follows:
+            assert found[0] == pytest.approx(found[1])
+        game.close()
 
 
 def away(pose):  # type: ignore[no-untyped-def]

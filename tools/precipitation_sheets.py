@@ -80,7 +80,7 @@ def gust(stage: Stage, out: Path) -> None:
             strength = float(wind.gust(frame / 30.0, GUST[0], GUST[1]))
             speed = calm.wind_speed + STRENGTH * strength
             game.mood.put(replace(calm, wind_speed=speed), "heavy")
-            if last - frame < LAST:
+            if last - frame < LAST or frame % NOW_AND_THEN == 0:
                 picture = stage.still(game, frames=1)
             else:
                 game.update(1.0 / 30.0)

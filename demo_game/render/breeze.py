@@ -13,6 +13,7 @@ LONGEST = 1.0  # s, that things move at once
 PERIOD = 20.0 * math.pi  # the shaders' factors of the phases are tenths
 WAVE = 0.35  # rad/m, of the waves in grass
 SLOWEST = 3.0  # m/s, at which gusts come over the land
+HASTE = 0.7  # 1/s, at which their speed follows that of the strongest
 
 
 class Breeze:
@@ -38,8 +39,8 @@ class Breeze:
         self._past.append((time, speed))
         while self._past[0][0] < time - PAST * STEP and len(self._past) > 1:
             self._past.popleft()
-        mean = sum(it for _, it in self._past) / len(self._past)
-        self.front += (max(mean, SLOWEST) - self.front) * min(0.2 * passed, 1.0)
+        strongest = max(it for _, it in self._past)
+        self.front += (max(strongest, SLOWEST) - self.front) * min(HASTE * passed, 1.0)
         slow = min(speed, 20.0)
         self.sway = (self.sway + passed * (1.1 + 0.06 * slow)) % PERIOD
         self.wave = (self.wave + passed * WAVE * 0.8 * max(slow, 1.0)) % PERIOD
