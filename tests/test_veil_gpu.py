@@ -26,7 +26,8 @@ from tests.veil_stage import (
     rays_of,
     shaft,
 )
-from weather_ecs.frame import FogData, SkyLight, VeilData
+from weather_ecs.frame import FogData, SkyLight, SnowLook, VeilData
+from weather_ecs.gpu.veil_list import color
 from weather_ecs.gpu.view_block import encode, veil_light
 from weather_ecs.physics import veil
 from weather_ecs.physics.front import LONG
@@ -276,3 +277,15 @@ def test_overhead_the_veil_has_no_hole(stage: Stage) -> None:
     assert found.min() > 0.4
     assert np.abs(np.diff(found, axis=0)).max() < 0.01
     assert np.abs(np.diff(found, axis=1)).max() < 0.01
+
+
+def test_a_veil_of_snow_is_no_brighter_than_the_sky_that_lights_it() -> None:
+    """Single flakes may be, to stand out from it."""
+    it = frame(area(0, (0.0, 0.0), (60.0, 40.0), 2.0))
+    snow = VeilData((0.0, 0.0, 1.0, 0.0), (60.0, 40.0, 0.5), (0.0, 80.0), 0.01, 30.0, snow=1.0)
+
+    def shown(brightness: float) -> np.ndarray:
+        return color(replace(it, flakes=SnowLook(brightness=brightness)), snow)
+
+    assert (shown(0.5) < shown(1.0)).all() and (shown(1.0) < shown(1.3)).all()
+    assert np.array_equal(shown(1.7), shown(1.3)) and np.array_equal(shown(9.0), shown(1.3))

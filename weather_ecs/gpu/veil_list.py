@@ -21,6 +21,7 @@ MOST = 24  # drawn
 TOGETHER = 4  # in one go over the picture; also in shaders/veil.frag
 LEAST = 1.0 / 255.0  # an optical depth that nobody sees
 DARKER = 0.22  # share of its light that thick rain under a cloud lacks
+BRIGHTEST_SNOW = 1.3  # of the light that a flake takes from the sky, what a veil of them shows
 SHADED_SNOW = 1.35  # times as bright as rain under a cloud
 
 VEIL = UniformBlock(
@@ -193,7 +194,9 @@ def color(frame: FrameData, veil: VeilData) -> NDArray:
         rain = (1.0 - veil.cloud) * rain + veil.cloud * cloud_light(sky)
     if snow <= 0.0:
         return np.asarray(rain)
-    # Snow is white in the same light; under a cloud in what comes from the sides.
-    white = frame.flakes.brightness * flake_light(sky) + np.array(sky.sun_color) * 0.22
+    # Snow is white in the same light; under a cloud in what comes from the sides. A single flake
+    # may be shown brighter, so that it stands out; many are about as bright as what lights them.
+    shown = min(frame.flakes.brightness, BRIGHTEST_SNOW)
+    white = shown * flake_light(sky) + np.array(sky.sun_color) * 0.22
     white = (1.0 - veil.cloud) * white + veil.cloud * SHADED_SNOW * cloud_light(sky)
     return np.asarray((1.0 - snow) * rain + snow * white)
