@@ -186,6 +186,20 @@ def test_pictures_are_those_of_compute(ctx: moderngl.Context, snows: bool) -> No
     assert (off > 8).mean() < 0.01
 
 
+@KINDS
+def test_the_same_number_is_drawn_as_with_compute(ctx: moderngl.Context, snows: bool) -> None:
+    if not probe(ctx).compute:
+        pytest.skip("no compute shaders here")
+    drawn = []
+    for backend in ("compute", "feedback"):
+        with falling(ctx, snows, backend=backend) as made:
+            look(made, 5)
+            ctx.finish()
+            look(made)
+            drawn.append(made.weather.stats.drops_drawn)
+    assert drawn[0] > 300 and drawn[1] == pytest.approx(drawn[0], rel=0.02)
+
+
 def test_without_streams_there_is_one_list_of_snow(
     ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

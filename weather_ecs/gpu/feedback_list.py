@@ -108,22 +108,23 @@ class FeedbackList:
         """Where the lists are now."""
         return self.drops.states[1 - self.drops.current]
 
-    def draw(self, cull: Any, count: int, lit: bool) -> None:
-        """List those of the first `count` drops that are in view, by the program `cull`, and draw.
-
-        lit: by the programs that know lamps.
-        """
+    def look(self, cull: Any, count: int) -> None:
+        """List those of the first `count` drops that are in view, by the program `cull`."""
         if count <= 0:
             return
-        ids, ctx = self.ids, self._lister.ctx
         for first in self.firsts:
-            self._lister.empty(ids, first, count)
-        self._lister.write(cull, self.drops.array(CULL_NAME), count, ids, self.firsts)
-        ctx.enable_direct(e.PRIMITIVE_RESTART)
+            self._lister.empty(self.ids, first, count)
+        self._lister.write(cull, self.drops.array(CULL_NAME), count, self.ids, self.firsts)
+
+    def draw(self, cull: Any, count: int, lit: bool) -> None:
+        """Draw those listed of the first `count` drops. lit: by the programs that know lamps."""
+        if count <= 0:
+            return
+        self._lister.ctx.enable_direct(e.PRIMITIVE_RESTART)
         for arrays, first in zip(reversed(self._arrays), reversed(self.firsts), strict=True):
             array = arrays[lit][self.drops.current]
             array.render(moderngl.POINTS, vertices=count, first=first)
-        ctx.disable_direct(e.PRIMITIVE_RESTART)
+        self._lister.ctx.disable_direct(e.PRIMITIVE_RESTART)
 
     def release(self) -> None:
         """Give everything back; twice does no harm."""

@@ -223,5 +223,6 @@ class Layers:
             return
         self._ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
         self._gl.glDepthMask(0)
+        self._rain.look(view)
         with self._counter:
             self._rain.draw(view)

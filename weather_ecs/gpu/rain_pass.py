@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import moderngl
@@ -191,28 +192,44 @@ class RainPass:
         drops.alive = count
         return count
 
+    def look(self, view: ViewData) -> None:
+        """List what is in view, before `draw`; with compute that is part of it.
+
+        Apart, because transform feedback counts among the primitives that are drawn.
+        """
+        if self._lists:
+            return
+        self.bind_blocks(view)
+        for drops, kind, count in self._shown(view):
+            found = self._list(drops, kind)
+            if isinstance(found, FeedbackList):
+                found.look(kind.cull, count)
+
     def draw(self, view: ViewData) -> None:
         """Draws the streaks into the bound framebuffer."""
         self.bind_blocks(view)
-        seen = self._observed[view.key]
         lit = len(view.frame.lights) > 0
+        for drops, kind, count in self._shown(view):
+            self._list(drops, kind).draw(kind.cull, count, lit)
+
+    def _shown(self, view: ViewData) -> Iterator[tuple[DropSet, KindPrograms, int]]:
+        """One container after the other, its blocks in place; how many of its drops there are."""
+        seen = self._observed[view.key]
         for container in view.containers:
-            drops = seen.sets[container.key]
+            drops, kind = seen.sets[container.key], self._kind(container.kind)
             self.fill_container(container, view)
-            kind = self._kind(container.kind)
             kind.use(container, view, drawing=True)
-            count = min(drops_used(container, drops), drops.alive)
-            if drops.streaks is None:
-                drops.streaks = self._list(drops, kind)
-            drops.streaks.draw(kind.cull, count, lit)
+            yield drops, kind, min(drops_used(container, drops), drops.alive)
 
     def _list(self, drops: DropSet, kind: KindPrograms) -> StreakList | FeedbackList:
         """Of those in view, for a set of drops."""
-        if self._lists:
-            return StreakList(self._ctx, drops, kind.draw, kind.far, self._order)
-        if self._lister is None:
-            self._lister = Lister(self._ctx)
-        return FeedbackList(self._lister, drops, kind.draw, kind.far)
+        if drops.streaks is None and self._lists:
+            drops.streaks = StreakList(self._ctx, drops, kind.draw, kind.far, self._order)
+        elif drops.streaks is None:
+            if self._lister is None:
+                self._lister = Lister(self._ctx)
+            drops.streaks = FeedbackList(self._lister, drops, kind.draw, kind.far)
+        return drops.streaks
 
     def bind_blocks(self, view: ViewData) -> None:
         """Bind what drawing reads: the block of containers, and the air's."""
