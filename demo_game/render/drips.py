@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -21,6 +22,20 @@ FAINTEST = 1e-3  # mm/h, of rain that wets a roof
 RINGS_SEEN = 7.5  # m from the camera
 STRETCH = 1.5  # m of the trails that are drawn or not
 UNITS = {"detail_map": 1, "sky_map": 3}
+
+
+def _variants(
+    ctx: moderngl.Context, block: FrameBlock, name: str, content: list[Any], **uniforms: Any
+) -> Variants:
+    """Programs of the shaders of a name, each with one vertex array of the content."""
+
+    def look(*defines: str) -> Look:
+        program = compile_program(ctx, f"{name}.vert", f"{name}.frag", *defines)
+        block.attach(program)
+        set_uniforms(program, **uniforms)
+        return program, [ctx.vertex_array(program, content)]
+
+    return Variants(look)
 
 
 class Drips:
@@ -43,12 +58,7 @@ class Drips:
             (self._drips, "4f4 1f4/i", "in_drip", "in_lamp"),
         ]
 
-        def look(*defines: str) -> Look:
-            program = compile_program(ctx, "drip.vert", "drip.frag", *defines)
-            block.attach(program)
-            return program, [ctx.vertex_array(program, content)]
-
-        self.looks = (Variants(look),)
+        self.looks = (_variants(ctx, block, "drip", content),)
 
     def draw(
         self, planes: NDArray, camera: NDArray, environment: Environment, projection: NDArray,
@@ -90,13 +100,7 @@ class PuddleRings:
         self._vertices = ctx.buffer(sites.astype("f4").tobytes())
         content = [(self._vertices, "3f4", "in_place")]
 
-        def look(*defines: str) -> Look:
-            program = compile_program(ctx, "ring.vert", "ring.frag", *defines)
-            block.attach(program)
-            set_uniforms(program, reach=RINGS_SEEN, **UNITS)
-            return program, [ctx.vertex_array(program, content)]
-
-        self.looks = (Variants(look),)
+        self.looks = (_variants(ctx, block, "ring", content, reach=RINGS_SEEN, **UNITS),)
 
     def draw(
         self, planes: NDArray, camera: NDArray, environment: Environment, projection: NDArray,

@@ -22,7 +22,7 @@ TOGETHER = 4  # drops that streak_cull.geom takes at a time; buffers with two si
 class DropSet:
     """Buffers and vertex arrays of `capacity` drops.
 
-    With lists of those in view 72 or 76 bytes a drop with feedback, 44 without.
+    With the lists of those in view 64 bytes a drop with feedback, 44 without.
 
     `programs` are those that read the drops as vertices, by name; each gets its vertex arrays.
     With `two_sided`, the state is double, for transform feedback from one side to the other.
